@@ -95,10 +95,12 @@ impl Tracer {
     /// The nearest hit of one ray.
     #[must_use]
     pub fn trace(&self, ray: &Ray, scene: &Scene) -> Option<Hit> {
-        self.nearest(ray, scene, &mut Undecided::default())
+        self.trace_counting(ray, scene, &mut Undecided::default())
     }
 
-    fn nearest(&self, ray: &Ray, scene: &Scene, undecided: &mut Undecided) -> Option<Hit> {
+    /// The nearest hit of one ray; what the filter of [`Arithmetic::Exact`] leaves undecided is added up.
+    #[must_use]
+    pub fn trace_counting(&self, ray: &Ray, scene: &Scene, undecided: &mut Undecided) -> Option<Hit> {
         let spheres = scene.spheres();
         match self.arithmetic {
             Arithmetic::Exact => exact::nearest(ray, spheres, undecided),
@@ -124,7 +126,7 @@ impl Tracer {
             let y = u32::try_from(y).expect("rows are below 2^14");
             for (x, i) in (0..).zip(0..width) {
                 let ray = Ray::of_pixel(camera, x, y);
-                if let Some(hit) = self.nearest(&ray, scene, &mut undecided) {
+                if let Some(hit) = self.trace_counting(&ray, scene, &mut undecided) {
                     (ids[i], t[i], rgba[i]) = (hit.id, hit.t, shade::shade(scene, &ray, hit));
                 }
             }

@@ -2,4 +2,10 @@
 //!
 //! The modules stand in the order in which data flows.
 
+pub mod directed;
+pub mod seed;
+
+pub mod subject;
+
+pub mod judge;
 pub mod verdict;
