@@ -1,7 +1,7 @@
 //! How wrong are the f32 forms far away? Figures measured before this project began (200,000 rays at a unit sphere
 //! at distance D) must come out again from the shipped forms against the exact truth.
 //!
-//! Those figures do not say how far the rays spread; a disc of 1.7 radii fits them best. Hence a factor of 1.5
+//! Those figures do not say how far the rays spread; a disc of 1.7 radii fits them best. Hence a factor of 1.8
 //! either way on the textbook form; the spread of the disc enters its share of wrong rays, and not its median error.
 
 use contract::{DEFAULT_LIGHT, Scene};
@@ -12,7 +12,7 @@ use verify::directed::aimed;
 use verify::seed::{count, generator, seed};
 
 const SPREAD: f64 = 1.7;
-const FACTOR: f64 = 1.5;
+const FACTOR: f64 = 1.8;
 
 /// Distance in radii; textbook rays wrong, in percent; its median error of t, in radii; most perpendicular rays
 /// wrong, in percent (10 times the figure measured then: that was 2 to 6 rays of 200,000).
@@ -25,7 +25,7 @@ const ROWS: [(f64, f64, f64, f64); 4] = [
 
 #[test]
 fn f32_forms_fail_as_measured() {
-    let (seed, rays) = (seed(), count("CGT_FORM_RAYS", 200_000));
+    let (seed, rays) = (seed(), count("CGT_FORM_RAYS", 1_000_000));
     eprintln!("CGT_SEED={seed}, {rays} rays a row");
     for (distance, wrong, median, perpendicular) in ROWS {
         let shots: Vec<Shot> = (0..rays).into_par_iter().map(|i| shoot(distance, seed, i)).collect();
