@@ -3,3 +3,5 @@
 //! The modules stand in the order in which data flows.
 
 pub mod verdict;
+
+pub mod picture;
