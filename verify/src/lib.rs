@@ -5,3 +5,4 @@
 pub mod verdict;
 
 pub mod picture;
+pub mod report;
