@@ -9,3 +9,6 @@ pub mod subject;
 
 pub mod judge;
 pub mod verdict;
+
+pub mod picture;
+pub mod report;

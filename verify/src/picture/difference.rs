@@ -1,0 +1,101 @@
+//! The difference of two images: the truth dimmed to grey, and on it every wrong pixel in the colour of its fault.
+//! Truth and subject come in, a canvas of the same size goes out. Each pixel has one fault, the gravest: a wrong
+//! id before a wrong t, a wrong t before a wrong colour. The colours are told apart with every common form of
+//! colour blindness (Okabe and Ito, "Color Universal Design", 2008) and none of them is grey.
+//! Pairs of different sizes are refused.
+
+use super::{PictureError, check_pair};
+use contract::{Image, MISS};
+use image::{Rgba, RgbaImage};
+use serde::Serialize;
+
+/// What is wrong with a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Fault {
+    /// The truth hits, the subject does not.
+    Missing,
+    /// The subject hits, the truth does not.
+    Extra,
+    /// Both hit, different spheres.
+    Swapped,
+    /// The right id, but t has other bits; the colour may be wrong too.
+    T,
+    /// Id and t are right, the colour is not.
+    Color,
+}
+
+/// The colour of each fault in the difference panel and what a legend calls it, gravest first.
+pub const PALETTE: [(Fault, [u8; 3], &str); 5] = [
+    (Fault::Missing, [0xD5, 0x5E, 0x00], "missing: the truth hits, the subject does not"),
+    (Fault::Extra, [0x56, 0xB4, 0xE9], "extra: the subject hits, the truth does not"),
+    (Fault::Swapped, [0xF0, 0xE4, 0x42], "swapped: another sphere"),
+    (Fault::T, [0x00, 0x9E, 0x73], "right sphere, wrong t"),
+    (Fault::Color, [0xCC, 0x79, 0xA7], "only the colour is wrong"),
+];
+
+impl Fault {
+    /// Its colour in [`PALETTE`].
+    #[must_use]
+    pub fn color(self) -> [u8; 3] {
+        PALETTE[self as usize].1
+    }
+}
+
+/// What is wrong at an index of the layers, if anything.
+///
+/// # Panics
+/// If the index lies beyond a layer of either image.
+#[must_use]
+pub fn fault_at(truth: &Image, subject: &Image, index: usize) -> Option<Fault> {
+    let same_t = truth.t[index].to_bits() == subject.t[index].to_bits();
+    match (truth.ids[index], subject.ids[index]) {
+        (a, b) if a != b && b == MISS => Some(Fault::Missing),
+        (a, b) if a != b && a == MISS => Some(Fault::Extra),
+        (a, b) if a != b => Some(Fault::Swapped),
+        _ if !same_t => Some(Fault::T),
+        _ if truth.rgba[index] != subject.rgba[index] => Some(Fault::Color),
+        _ => None,
+    }
+}
+
+/// Column and row of the first pixel, in row order, with a wrong id; failing that with a wrong t; failing that
+/// with a wrong colour: the same rule as [`crate::verdict::Comparison::first_wrong`].
+///
+/// # Errors
+/// [`PictureError::Layer`] and [`PictureError::Sizes`].
+pub fn first_wrong(truth: &Image, subject: &Image) -> Result<Option<[u32; 2]>, PictureError> {
+    check_pair(truth, subject)?;
+    let grade = |fault| match fault {
+        Fault::Missing | Fault::Extra | Fault::Swapped => 0,
+        Fault::T => 1,
+        Fault::Color => 2,
+    };
+    let (width, height) = (truth.size.width(), truth.size.height());
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
+    let faults = pixels
+        .enumerate()
+        .filter_map(|(index, place)| Some((grade(fault_at(truth, subject, index)?), place)));
+    // min_by_key keeps the first of equals, which is the first in row order.
+    Ok(faults.min_by_key(|(grade, _)| *grade).map(|(_, place)| place))
+}
+
+/// The difference panel.
+///
+/// # Errors
+/// [`PictureError::Layer`] and [`PictureError::Sizes`].
+pub fn difference(truth: &Image, subject: &Image) -> Result<RgbaImage, PictureError> {
+    check_pair(truth, subject)?;
+    let (width, height) = (truth.size.width(), truth.size.height());
+    Ok(RgbaImage::from_fn(width, height, |x, y| {
+        let index = y as usize * width as usize + x as usize;
+        let [r, g, b] =
+            fault_at(truth, subject, index).map_or_else(|| dimmed(truth.rgba[index]), Fault::color);
+        Rgba([r, g, b, 255])
+    }))
+}
+
+/// Grey of about the same lightness, in the range 24 to 88 of 255, so that every fault outshines it.
+fn dimmed([r, g, b, _]: [u8; 4]) -> [u8; 3] {
+    let luma = (u32::from(r) * 54 + u32::from(g) * 183 + u32::from(b) * 19) >> 8;
+    [u8::try_from(24 + luma / 4).unwrap_or(u8::MAX); 3]
+}
