@@ -5,7 +5,7 @@
 use super::view::{Badge, HEADINGS, SceneView};
 use super::words::{VERDICTS, sentence};
 use super::{Evidence, Report, ScenePictures};
-use crate::picture::PALETTE;
+use crate::picture::{PALETTE, RARE};
 use askama::Template;
 
 #[derive(Template)]
@@ -17,6 +17,7 @@ struct Page<'a> {
     tally: Vec<(Badge, usize)>,
     headings: [&'static str; 12],
     legend: Vec<(String, &'static str)>,
+    how_drawn: String,
     seed: Option<String>,
     evidence: Vec<(&'static str, usize)>,
     columns: Vec<&'a str>,
@@ -40,6 +41,9 @@ pub fn html(report: &Report, pictures: &[ScenePictures]) -> Result<String, askam
             .iter()
             .map(|(_, [r, g, b], what)| (format!("#{r:02x}{g:02x}{b:02x}"), *what))
             .collect(),
+        how_drawn: format!(
+            "The ring marks the first wrong pixel. Faults of fewer than one pixel in {RARE} are drawn larger."
+        ),
         seed: report.environment.seed.map(|seed| format!("{seed} (0x{seed:016x})")),
         evidence: Evidence::ALL.iter().map(|kind| (kind.word(), rests_on(report, *kind))).collect(),
         columns: columns(report),
