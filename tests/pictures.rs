@@ -194,8 +194,8 @@ fn only_rare_faults_are_enlarged() -> Outcome {
     let panel = bold_difference(&truth, &subject)?;
     let count = |fault| panel.pixels().filter(|pixel| pixel.0 == opaque(fault)).count();
     assert_eq!(count(Fault::T), 2000);
-    assert_eq!(count(Fault::Swapped), 25);
-    assert_eq!(count(Fault::Color), 25 - 15);
+    assert_eq!(count(Fault::Swapped), 9 * 9);
+    assert_eq!(count(Fault::Color), 9 * 2);
     Ok(())
 }
 

@@ -126,10 +126,10 @@ fn dimmed([r, g, b, _]: [u8; 4]) -> [u8; 3] {
     [u8::try_from(24 + luma / 4).unwrap_or(u8::MAX); 3]
 }
 
-/// Side in pixels of the square for a rare fault in a panel of that width: 5 for 1280, 1 below 640.
+/// Side in pixels of the square for a rare fault in a panel of that width: 9 for 1280, 1 below 320.
 #[must_use]
 pub fn square_side(width: u32) -> u32 {
-    width / 640 * 2 + 1
+    width / 320 * 2 + 1
 }
 
 fn fill_square(panel: &mut RgbaImage, [x, y]: [u32; 2], half: u32, color: Rgba<u8>) {

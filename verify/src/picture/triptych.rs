@@ -119,8 +119,8 @@ fn frame(zoomed: &mut RgbaImage, start: u32, scale: u32) {
     let outside = |at: u32| (first - i64::from(at)).max(i64::from(at) - last);
     for (column, row, pixel) in zoomed.enumerate_pixels_mut() {
         match outside(column).max(outside(row)) {
-            1 | 2 => *pixel = Rgba(MARK),
-            3 => *pixel = Rgba(RIM),
+            1..=3 => *pixel = Rgba(MARK),
+            4 | 5 => *pixel = Rgba(RIM),
             _ => {}
         }
     }
