@@ -75,8 +75,8 @@ fn mark(panel: &mut RgbaImage, [x, y]: [u32; 2]) {
     let (width, height) = (i64::from(panel.width()), i64::from(panel.height()));
     let (x, y) = (i64::from(x), i64::from(y));
     let radius = i64::from(ring_radius(panel.width()));
-    let half = (radius / 12).max(1);
-    let rim = half + (half + 1) / 2;
+    let half = radius / 12;
+    let rim = half + (half / 2).max(1);
     let reach = 2 * radius + rim;
     for row in (y - reach).max(0)..(y + reach + 1).min(height) {
         for column in (x - reach).max(0)..(x + reach + 1).min(width) {
