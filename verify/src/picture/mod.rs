@@ -8,7 +8,9 @@ mod png;
 mod triptych;
 mod write;
 
-pub use self::difference::{Fault, PALETTE, difference, fault_at, first_wrong};
+pub use self::difference::{
+    Fault, PALETTE, RARE, bold_difference, difference, fault_at, first_wrong, square_side,
+};
 pub use self::exr::exr;
 pub use self::png::{canvas, png};
 pub use self::triptych::{GAP, MARK, join, panels, ring_radius, triptych, zoom};

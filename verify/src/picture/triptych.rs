@@ -3,7 +3,7 @@
 //! to the image, so that a single wrong pixel among millions is found when the picture is shown small; the ring
 //! leaves the pixels near its centre untouched. Pairs of different sizes are refused.
 
-use super::{PictureError, canvas, difference, first_wrong};
+use super::{PictureError, bold_difference, canvas, difference, first_wrong};
 use contract::Image;
 use image::imageops::overlay;
 use image::{Rgba, RgbaImage};
@@ -14,12 +14,12 @@ pub const GAP: u32 = 8;
 pub const MARK: [u8; 4] = [255, 255, 255, 255];
 const RIM: [u8; 4] = [0, 0, 0, 255];
 
-/// Truth, subject and difference, each of the image's size, marked if anything differs.
+/// Truth, subject and [`bold_difference`], each of the image's size, marked if anything differs.
 ///
 /// # Errors
 /// [`PictureError::Layer`] and [`PictureError::Sizes`].
 pub fn panels(truth: &Image, subject: &Image) -> Result<[RgbaImage; 3], PictureError> {
-    let mut panels = plain_panels(truth, subject)?;
+    let mut panels = [canvas(truth)?, canvas(subject)?, bold_difference(truth, subject)?];
     if let Some(place) = first_wrong(truth, subject)? {
         panels.iter_mut().for_each(|panel| mark(panel, place));
     }
@@ -35,7 +35,7 @@ pub fn triptych(truth: &Image, subject: &Image) -> Result<RgbaImage, PictureErro
 }
 
 /// The `side` x `side` pixels around the first wrong one, each drawn as `scale` x `scale`, the wrong one framed;
-/// `None` if nothing differs. What lies outside the image is transparent.
+/// `None` if nothing differs. The difference is the exact one, no pixel enlarged beyond the others. What lies outside the image is transparent.
 ///
 /// # Errors
 /// [`PictureError::Layer`] and [`PictureError::Sizes`].
@@ -46,7 +46,7 @@ pub fn zoom(
     scale: u32,
 ) -> Result<Option<[RgbaImage; 3]>, PictureError> {
     let Some(place) = first_wrong(truth, subject)? else { return Ok(None) };
-    let panels = plain_panels(truth, subject)?;
+    let panels = [canvas(truth)?, canvas(subject)?, difference(truth, subject)?];
     Ok(Some(panels.map(|panel| magnified(&panel, place, side.max(1), scale.max(1)))))
 }
 
@@ -70,17 +70,13 @@ pub fn ring_radius(width: u32) -> u32 {
     (width / 40).max(6)
 }
 
-fn plain_panels(truth: &Image, subject: &Image) -> Result<[RgbaImage; 3], PictureError> {
-    Ok([canvas(truth)?, canvas(subject)?, difference(truth, subject)?])
-}
-
 /// The ring, its rim inside and outside, and ticks of one radius that point at the pixel.
 fn mark(panel: &mut RgbaImage, [x, y]: [u32; 2]) {
     let (width, height) = (i64::from(panel.width()), i64::from(panel.height()));
     let (x, y) = (i64::from(x), i64::from(y));
     let radius = i64::from(ring_radius(panel.width()));
-    let half = (radius / 12).max(1);
-    let rim = half + (half + 1) / 2;
+    let half = radius / 12;
+    let rim = half + (half / 2).max(1);
     let reach = 2 * radius + rim;
     for row in (y - reach).max(0)..(y + reach + 1).min(height) {
         for column in (x - reach).max(0)..(x + reach + 1).min(width) {
@@ -123,8 +119,8 @@ fn frame(zoomed: &mut RgbaImage, start: u32, scale: u32) {
     let outside = |at: u32| (first - i64::from(at)).max(i64::from(at) - last);
     for (column, row, pixel) in zoomed.enumerate_pixels_mut() {
         match outside(column).max(outside(row)) {
-            1 | 2 => *pixel = Rgba(MARK),
-            3 => *pixel = Rgba(RIM),
+            1..=3 => *pixel = Rgba(MARK),
+            4 | 5 => *pixel = Rgba(RIM),
             _ => {}
         }
     }

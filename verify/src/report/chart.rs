@@ -51,10 +51,10 @@ impl Chart {
         };
         let decades = (lowest..=TOP).map(|power| Tick {
             at: percent(place(10_f64.powi(power), lowest)),
-            label: if (0..=2).contains(&power) {
-                figure(10_f64.powi(power))
-            } else {
-                format!("10{}", superscript(power))
+            label: match power {
+                0 => "1".to_owned(),
+                1 => "10".to_owned(),
+                _ => format!("10{}", superscript(power)),
             },
         });
         let zero = Tick { at: percent(ZERO), label: "0".to_owned() };

@@ -2,10 +2,11 @@
 //! A [`Report`] and the pictures of its scenes come in, the page goes out. All text is escaped by the template
 //! `templates/report.html`; its content security policy forbids it to load anything.
 
+use super::pictures::ZOOM_SIDE;
 use super::view::{Badge, HEADINGS, SceneView};
 use super::words::{VERDICTS, sentence};
 use super::{Evidence, Report, ScenePictures};
-use crate::picture::PALETTE;
+use crate::picture::{PALETTE, RARE};
 use askama::Template;
 
 #[derive(Template)]
@@ -17,6 +18,8 @@ struct Page<'a> {
     tally: Vec<(Badge, usize)>,
     headings: [&'static str; 12],
     legend: Vec<(String, &'static str)>,
+    how_drawn: String,
+    zoom_side: u32,
     seed: Option<String>,
     evidence: Vec<(&'static str, usize)>,
     columns: Vec<&'a str>,
@@ -40,7 +43,11 @@ pub fn html(report: &Report, pictures: &[ScenePictures]) -> Result<String, askam
             .iter()
             .map(|(_, [r, g, b], what)| (format!("#{r:02x}{g:02x}{b:02x}"), *what))
             .collect(),
-        seed: report.environment.seed.map(|seed| format!("{seed} (0x{seed:016x})")),
+        how_drawn: format!(
+            "The ring marks the first wrong pixel. Faults of fewer than one pixel in {RARE} are drawn larger."
+        ),
+        zoom_side: ZOOM_SIDE,
+        seed: report.environment.seed.map(|seed| seed.to_string()),
         evidence: Evidence::ALL.iter().map(|kind| (kind.word(), rests_on(report, *kind))).collect(),
         columns: columns(report),
         scenes: scenes

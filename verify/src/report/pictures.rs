@@ -6,7 +6,7 @@ use crate::picture::{PictureError, canvas, join, panels, png, zoom};
 use contract::Image;
 
 /// Pixels on a side of the magnified part.
-const ZOOM_SIDE: u32 = 21;
+pub(super) const ZOOM_SIDE: u32 = 21;
 /// How many times it is magnified.
 const ZOOM_SCALE: u32 = 16;
 

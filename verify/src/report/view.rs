@@ -4,7 +4,7 @@
 
 use super::chart::Chart;
 use super::pictures::{Differing, SubjectPictures};
-use super::words::{NONE, count, duration, figure, mega_rays, sign, word};
+use super::words::{NONE, count, duration, mega_rays, sign, word};
 use super::{ScenePictures, SceneReport, SubjectReport};
 use crate::verdict::{Comparison, Verdict};
 use base64::Engine;
@@ -28,6 +28,8 @@ pub(super) struct SceneView<'a> {
     pub(super) truth: Option<String>,
     pub(super) chart: Chart,
     pub(super) subjects: Vec<SubjectView<'a>>,
+    /// Whether its pictures are shown larger than they are, so that their pixels are to be seen as such.
+    pub(super) small: bool,
 }
 
 /// A subject on the page.
@@ -49,6 +51,9 @@ pub(super) struct Shown {
     pub(super) zoom: [(&'static str, String); 3],
 }
 
+/// Pictures narrower than this are shown magnified.
+const SMALL: u32 = 360;
+
 /// Headings of [`SubjectView::cells`].
 pub(super) const HEADINGS: [&str; 12] = [
     "wrong ids",
@@ -56,9 +61,9 @@ pub(super) const HEADINGS: [&str; 12] = [
     "extra",
     "swapped",
     "wrong t",
-    "ulp, half",
-    "ulp, 99 %",
-    "ulp, max",
+    "ulp of t, median",
+    "ulp of t, 99\u{a0}%",
+    "ulp of t, most",
     "wrong colours",
     "by at most",
     "first wrong",
@@ -99,6 +104,7 @@ impl<'a> SceneView<'a> {
             subjects: subjects.map(|(k, s)| SubjectView::new(&anchor, k, s, picture(k))).collect(),
             anchor,
             data,
+            small: data.width < SMALL,
         }
     }
 }
@@ -150,7 +156,7 @@ fn cells(c: &Comparison) -> Vec<String> {
         ulp(c.t_ulp.p99),
         ulp(c.t_ulp.max),
         count(c.wrong_color),
-        figure(f64::from(c.color_max)),
+        count(c.color_max),
         first,
     ]
 }
