@@ -28,9 +28,19 @@ const ROWS: [Row; 9] = [
     ("The optimized picture equals the exact one, bit for bit", Evidence::NotShown, "0", "a later version"),
     ("The reference agrees with Embree outside the silhouettes", Evidence::NotShown, "0", "a later version"),
     ("Faster than Embree", Evidence::NotShown, "0", "a later version"),
-    ("The paper's flattened loop visits the cells of its nested loops", Evidence::NotShown, "0", "a later version"),
+    (
+        "The paper's flattened loop visits the cells of its nested loops",
+        Evidence::NotShown,
+        "0",
+        "a later version",
+    ),
     ("The paper's voxelization has no false negatives", Evidence::NotShown, "0", "a later version"),
-    ("The paper's scenes fit and run in real time on its machine", Evidence::NotShown, "0", "a later version"),
+    (
+        "The paper's scenes fit and run in real time on its machine",
+        Evidence::NotShown,
+        "0",
+        "a later version",
+    ),
 ];
 
 /// All claims, in the order of the table.

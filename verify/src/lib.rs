@@ -3,6 +3,7 @@
 //! The modules stand in the order in which data flows.
 
 pub mod directed;
+pub mod scenes;
 pub mod seed;
 
 pub mod subject;
@@ -10,5 +11,7 @@ pub mod subject;
 pub mod judge;
 pub mod verdict;
 
+pub mod claims;
 pub mod picture;
 pub mod report;
+pub mod run;

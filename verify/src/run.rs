@@ -62,7 +62,7 @@ pub fn run(
     let tick = progress("exact", rows);
     let truth = Tracer::new(Arithmetic::Exact).threads(threads).render_with(scene, camera, &*tick)?;
     let hits = truth.image.ids.iter().filter(|&&id| id != MISS).count() as u64;
-    let judge = Judge { name: "reference, exact".into(), counters: counters(camera, truth.undecided) };
+    let witness = Judge { name: "reference, exact".into(), counters: counters(camera, truth.undecided) };
     let truth = truth.image;
     let mut pictures = ScenePictures::new(&truth)?;
     let mut reports = Vec::new();
@@ -107,7 +107,7 @@ pub fn run(
         height: rows,
         camera: camera.into(),
         warnings: frame.warnings.to_vec(),
-        judge,
+        judge: witness,
         hits,
         picture: None,
         subjects: reports,

@@ -19,40 +19,47 @@ pub struct Shapeless {
     pub colors: usize,
 }
 
-/// How one pixel of a subject differs from the truth.
+/// What is wrong with a pixel, the gravest thing only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Difference {
-    /// In nothing.
-    None,
+pub enum Fault {
     /// The truth hits, the subject does not.
     Missing,
     /// The subject hits, the truth does not.
     Extra,
-    /// Another sphere.
+    /// Both hit, different spheres.
     Swapped,
-    /// The same sphere at another t.
+    /// The right id, but t has other bits; the colour may be wrong too.
     T,
-    /// The same sphere and t in another colour.
+    /// Id and t are right, the colour is not.
     Color,
 }
 
-/// Compares pixel `i`.
-#[must_use]
-pub fn difference(truth: &Image, subject: &Image, i: usize) -> Difference {
-    let (expected, given) = (truth.ids[i], subject.ids[i]);
-    if expected != given {
-        return match (expected, given) {
-            (_, MISS) => Difference::Missing,
-            (MISS, _) => Difference::Extra,
-            _ => Difference::Swapped,
-        };
+impl Fault {
+    /// 0 for a wrong id, 1 for a wrong t, 2 for a wrong colour.
+    #[must_use]
+    pub fn grade(self) -> usize {
+        match self {
+            Self::Missing | Self::Extra | Self::Swapped => 0,
+            Self::T => 1,
+            Self::Color => 2,
+        }
     }
-    if truth.t[i].to_bits() != subject.t[i].to_bits() {
-        Difference::T
-    } else if truth.rgba[i] != subject.rgba[i] {
-        Difference::Color
-    } else {
-        Difference::None
+}
+
+/// What is wrong at an index of the layers, if anything.
+///
+/// # Panics
+/// If the index lies beyond a layer of either image.
+#[must_use]
+pub fn fault_at(truth: &Image, subject: &Image, index: usize) -> Option<Fault> {
+    let same_t = truth.t[index].to_bits() == subject.t[index].to_bits();
+    match (truth.ids[index], subject.ids[index]) {
+        (a, b) if a != b && b == MISS => Some(Fault::Missing),
+        (a, b) if a != b && a == MISS => Some(Fault::Extra),
+        (a, b) if a != b => Some(Fault::Swapped),
+        _ if !same_t => Some(Fault::T),
+        _ if truth.rgba[index] != subject.rgba[index] => Some(Fault::Color),
+        _ => None,
     }
 }
 
@@ -72,20 +79,16 @@ pub fn compare(truth: &Image, subject: &Image) -> Result<Comparison, Shapeless> 
     let mut ulps = Vec::new();
     for i in 0..pixels {
         c.hits += u64::from(truth.ids[i] != MISS);
-        let difference = difference(truth, subject, i);
-        let rank = match difference {
-            Difference::Missing | Difference::Extra | Difference::Swapped => Some(0),
-            Difference::T => Some(1),
-            Difference::Color => Some(2),
-            Difference::None => None,
-        };
-        if let Some(rank) = rank {
-            first[rank] = first[rank].or(Some(i));
+        match fault_at(truth, subject, i) {
+            Some(Fault::Missing) => c.missing += 1,
+            Some(Fault::Extra) => c.extra += 1,
+            Some(Fault::Swapped) => c.swapped += 1,
+            Some(Fault::T) => c.wrong_t += 1,
+            Some(Fault::Color) | None => {}
         }
-        c.missing += u64::from(difference == Difference::Missing);
-        c.extra += u64::from(difference == Difference::Extra);
-        c.swapped += u64::from(difference == Difference::Swapped);
-        c.wrong_t += u64::from(difference == Difference::T);
+        if let Some(fault) = fault_at(truth, subject, i) {
+            first[fault.grade()] = first[fault.grade()].or(Some(i));
+        }
         if truth.ids[i] == subject.ids[i] && truth.ids[i] != MISS {
             ulps.push(ulps_apart(truth.t[i], subject.t[i]));
         }

@@ -10,7 +10,7 @@ pub mod compare;
 use crate::subject::{Promise, Rounding};
 use crate::verdict::{Comparison, Verdict};
 use band::band;
-use compare::{Difference, compare, difference};
+use compare::{Fault, compare, fault_at};
 use contract::{Camera, Image, MISS, Scene};
 use rayon::prelude::*;
 use reference::Ray;
@@ -104,12 +104,9 @@ fn explain(
     let rows = (0..camera.size().height()).into_par_iter().map(|y| {
         let mut counts = [0u64; 2];
         for (x, i) in (0..camera.size().width()).zip(y as usize * width..) {
-            let difference = difference(truth, subject, i);
-            if difference == Difference::None {
-                continue;
-            }
+            let Some(fault) = fault_at(truth, subject, i) else { continue };
             let ray = Ray::of_pixel(camera, x, y);
-            match explains(scene, &ray, rounding, difference, subject.ids[i], subject.t[i]) {
+            match explains(scene, &ray, rounding, fault, subject.ids[i], subject.t[i]) {
                 Some(true) => {}
                 Some(false) => counts[0] += 1,
                 None => counts[1] += 1,
@@ -125,15 +122,8 @@ fn explain(
 ///
 /// The answer's own sphere must be one that may be hit, at a t that may be had; and no sphere that must be
 /// hit may be certain to be nearer. The colour of an equal id and t is never a matter of rounding.
-fn explains(
-    scene: &Scene,
-    ray: &Ray,
-    rounding: Rounding,
-    difference: Difference,
-    id: u32,
-    t: f32,
-) -> Option<bool> {
-    if difference == Difference::Color {
+fn explains(scene: &Scene, ray: &Ray, rounding: Rounding, fault: Fault, id: u32, t: f32) -> Option<bool> {
+    if fault == Fault::Color {
         return Some(false);
     }
     if id != MISS {
@@ -144,7 +134,7 @@ fn explains(
             return Some(false);
         }
     }
-    if difference == Difference::T {
+    if fault == Fault::T {
         return Some(true);
     }
     for sphere in scene.spheres() {

@@ -5,24 +5,9 @@
 //! Pairs of different sizes are refused.
 
 use super::{PictureError, check_pair};
-use contract::{Image, MISS};
+use crate::judge::compare::{Fault, fault_at};
+use contract::Image;
 use image::{Rgba, RgbaImage};
-use serde::Serialize;
-
-/// What is wrong with a pixel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum Fault {
-    /// The truth hits, the subject does not.
-    Missing,
-    /// The subject hits, the truth does not.
-    Extra,
-    /// Both hit, different spheres.
-    Swapped,
-    /// The right id, but t has other bits; the colour may be wrong too.
-    T,
-    /// Id and t are right, the colour is not.
-    Color,
-}
 
 /// A fault that at most one pixel in so many has is drawn larger by [`bold_difference`].
 pub const RARE: usize = 500;
@@ -36,29 +21,10 @@ pub const PALETTE: [(Fault, [u8; 3], &str); 5] = [
     (Fault::Color, [0xCC, 0x79, 0xA7], "only the colour is wrong"),
 ];
 
-impl Fault {
-    /// Its colour in [`PALETTE`].
-    #[must_use]
-    pub fn color(self) -> [u8; 3] {
-        PALETTE[self as usize].1
-    }
-}
-
-/// What is wrong at an index of the layers, if anything.
-///
-/// # Panics
-/// If the index lies beyond a layer of either image.
+/// The colour of a fault in [`PALETTE`].
 #[must_use]
-pub fn fault_at(truth: &Image, subject: &Image, index: usize) -> Option<Fault> {
-    let same_t = truth.t[index].to_bits() == subject.t[index].to_bits();
-    match (truth.ids[index], subject.ids[index]) {
-        (a, b) if a != b && b == MISS => Some(Fault::Missing),
-        (a, b) if a != b && a == MISS => Some(Fault::Extra),
-        (a, b) if a != b => Some(Fault::Swapped),
-        _ if !same_t => Some(Fault::T),
-        _ if truth.rgba[index] != subject.rgba[index] => Some(Fault::Color),
-        _ => None,
-    }
+pub fn fault_color(fault: Fault) -> [u8; 3] {
+    PALETTE[fault as usize].1
 }
 
 /// Column and row of the first pixel, in row order, with a wrong id; failing that with a wrong t; failing that
@@ -68,16 +34,11 @@ pub fn fault_at(truth: &Image, subject: &Image, index: usize) -> Option<Fault> {
 /// [`PictureError::Layer`] and [`PictureError::Sizes`].
 pub fn first_wrong(truth: &Image, subject: &Image) -> Result<Option<[u32; 2]>, PictureError> {
     check_pair(truth, subject)?;
-    let grade = |fault| match fault {
-        Fault::Missing | Fault::Extra | Fault::Swapped => 0,
-        Fault::T => 1,
-        Fault::Color => 2,
-    };
     let (width, height) = (truth.size.width(), truth.size.height());
     let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
     let faults = pixels
         .enumerate()
-        .filter_map(|(index, place)| Some((grade(fault_at(truth, subject, index)?), place)));
+        .filter_map(|(index, place)| Some((fault_at(truth, subject, index)?.grade(), place)));
     // min_by_key keeps the first of equals, which is the first in row order.
     Ok(faults.min_by_key(|(grade, _)| *grade).map(|(_, place)| place))
 }
@@ -92,7 +53,7 @@ pub fn difference(truth: &Image, subject: &Image) -> Result<RgbaImage, PictureEr
     Ok(RgbaImage::from_fn(width, height, |x, y| {
         let index = y as usize * width as usize + x as usize;
         let [r, g, b] =
-            fault_at(truth, subject, index).map_or_else(|| dimmed(truth.rgba[index]), Fault::color);
+            fault_at(truth, subject, index).map_or_else(|| dimmed(truth.rgba[index]), fault_color);
         Rgba([r, g, b, 255])
     }))
 }

@@ -9,7 +9,7 @@ mod triptych;
 mod write;
 
 pub use self::difference::{
-    Fault, PALETTE, RARE, bold_difference, difference, fault_at, first_wrong, square_side,
+    PALETTE, RARE, bold_difference, difference, fault_color, first_wrong, square_side,
 };
 pub use self::exr::exr;
 pub use self::png::{canvas, png};

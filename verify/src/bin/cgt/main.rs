@@ -13,7 +13,7 @@ use std::io::Write;
 use std::process::ExitCode;
 
 /// Any error that ends the program with code 2.
-type Failure = Box<dyn std::error::Error>;
+type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
