@@ -2,4 +2,5 @@
 //!
 //! The modules stand in the order in which data flows.
 
+pub mod scenes;
 pub mod verdict;
