@@ -43,13 +43,18 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
     let mut lines = Lines::new(file, "LAMMPS dump", bytes)?;
     let mut guessed = None;
     loop {
-        match frame(&mut lines, &frames, &mut guessed)? {
-            End::Whole(spheres) => frames.push(spheres)?,
-            End::File => break,
-            End::Cut { line, detail } => {
+        match frame(&mut lines, &frames, &mut guessed) {
+            Ok(End::Whole(spheres)) => frames.push(spheres)?,
+            Ok(End::File) => break,
+            Ok(End::Cut { line, detail }) => {
                 frames.cut(Some(line), detail)?;
                 break;
             }
+            Err(error) if lines.cut_by(&error) && frames.len() > 0 => {
+                frames.cut(Some(lines.number()), error.to_string())?;
+                break;
+            }
+            Err(error) => return Err(error),
         }
     }
     if let Some(line) = guessed {
@@ -64,13 +69,13 @@ fn frame(lines: &mut Lines<'_>, frames: &Frames<'_>, guessed: &mut Option<usize>
     let mut bounds = None;
     let mut last = 0;
     while let Some(line) = lines.next() {
-        last = line.number;
         let Some(item) = line.text.trim_ascii().strip_prefix(b"ITEM:") else {
             if line.text.trim_ascii().is_empty() {
                 continue;
             }
             return Err(line.columns(1, usize::MAX).wrong("line", "a line ITEM: must stand here"));
         };
+        last = line.number;
         let item = item.trim_ascii_start();
         if item.starts_with(b"NUMBER OF ATOMS") {
             let Some(next) = lines.next() else { break };
@@ -84,7 +89,7 @@ fn frame(lines: &mut Lines<'_>, frames: &Frames<'_>, guessed: &mut Option<usize>
                 other => Some(other?),
             };
         } else if item.starts_with(b"BOX BOUNDS") {
-            match box_bounds(lines, frames)? {
+            match box_bounds(lines)? {
                 Some(found) => bounds = Some(found),
                 None => break,
             }
@@ -103,7 +108,7 @@ fn frame(lines: &mut Lines<'_>, frames: &Frames<'_>, guessed: &mut Option<usize>
 }
 
 /// Three lines `low high`, with a tilt where the box is skewed; `None` if the file ends within.
-fn box_bounds(lines: &mut Lines<'_>, frames: &Frames<'_>) -> Result<Option<[[f64; 3]; 3]>, ReadError> {
+fn box_bounds(lines: &mut Lines<'_>) -> Result<Option<[[f64; 3]; 3]>, ReadError> {
     let mut bounds = [[0.0; 3]; 3];
     for bound in &mut bounds {
         let Some(line) = lines.next() else { return Ok(None) };
@@ -112,7 +117,6 @@ fn box_bounds(lines: &mut Lines<'_>, frames: &Frames<'_>) -> Result<Option<[[f64
             match words.next() {
                 Some(word) => bound[i] = f64::from(word.number(field)?),
                 None if i == 2 => {}
-                None if line.open && frames.len() > 0 => return Ok(None),
                 None => return Err(line.missing(field, "a number must stand here")),
             }
         }
@@ -165,13 +169,7 @@ fn atoms(
         let Some(line) = line.filter(|_| !blank) else {
             return Ok(End::Cut { line: head.number, detail: format!("{order} of {count} atoms") });
         };
-        match atom(line, columns, bounds, order) {
-            Ok(pair) => found.push(pair),
-            Err(error) if line.open && frames.len() > 0 => {
-                return Ok(End::Cut { line: line.number, detail: error.to_string() });
-            }
-            Err(error) => return Err(error),
-        }
+        found.push(atom(line, columns, bounds, order)?);
     }
     found.sort_by_key(|&(id, _)| id);
     Ok(End::Whole(found.into_iter().map(|(_, sphere)| sphere).collect()))

@@ -33,12 +33,13 @@ struct Tally {
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
     let mut frames = Frames::new(file, bytes.len());
     let (mut model, mut tally) = (Model::default(), Tally::default());
-    for line in Lines::new(file, "PDB", bytes)? {
+    let mut lines = Lines::new(file, "PDB", bytes)?;
+    while let Some(line) = lines.next() {
         match line.columns(1, 6).text {
             b"ATOM" | b"HETATM" => match sphere(line, &mut model, &mut tally) {
                 Ok(Some(sphere)) => model.spheres.push(sphere),
                 Ok(None) => {}
-                Err(error) if line.open && frames.len() > 0 => {
+                Err(error) if lines.cut_by(&error) && frames.len() > 0 => {
                     frames.cut(Some(line.number), error.to_string())?;
                     model = Model::default();
                     break;
@@ -49,11 +50,11 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
                 close(&mut frames, &mut model)?;
                 model.open = true;
             }
-            b"ENDMDL" => close(&mut frames, &mut model)?,
+            b"ENDMDL" | b"END" => close(&mut frames, &mut model)?,
             _ => {}
         }
     }
-    if model.open && frames.len() > 0 {
+    if model.open {
         frames.cut(None, "MODEL without ENDMDL".into())?;
     } else if !model.spheres.is_empty() {
         close(&mut frames, &mut model)?;

@@ -10,6 +10,8 @@ pub(super) struct Lines<'a> {
     file: &'a str,
     rest: &'a [u8],
     number: usize,
+    /// Whether the file ends in the last line given without an end of line: it may have been cut.
+    open: bool,
 }
 
 /// One line without its end.
@@ -19,8 +21,6 @@ pub(super) struct Line<'a> {
     /// From 1.
     pub(super) number: usize,
     pub(super) text: &'a [u8],
-    /// Whether the file ends in this line without an end of line: it may have been cut.
-    pub(super) open: bool,
 }
 
 /// Some bytes of a line.
@@ -40,12 +40,22 @@ impl<'a> Lines<'a> {
         if bytes.iter().all(u8::is_ascii_whitespace) {
             return Err(ReadError::Empty { file: file.into() });
         }
-        Ok(Self { file, rest: bytes, number: 0 })
+        Ok(Self { file, rest: bytes, number: 0, open: false })
     }
 
     /// Bytes that are not yet read.
     pub(super) fn left(&self) -> usize {
         self.rest.len()
+    }
+
+    /// Whether an error may come of the file's having been cut within its last line.
+    pub(super) fn cut_by(&self, error: &ReadError) -> bool {
+        self.open && matches!(error, ReadError::Value { .. } | ReadError::Missing { .. })
+    }
+
+    /// Number of the last line given.
+    pub(super) fn number(&self) -> usize {
+        self.number
     }
 
     /// Whether nothing but white space is left.
@@ -68,8 +78,9 @@ impl<'a> Iterator for Lines<'a> {
             None => (self.rest, &self.rest[self.rest.len()..]),
         };
         self.rest = rest;
+        self.open = end.is_none();
         let text = text.strip_suffix(b"\r").unwrap_or(text);
-        Some(Line { file: self.file, number: self.number, text, open: end.is_none() })
+        Some(Line { file: self.file, number: self.number, text })
     }
 }
 

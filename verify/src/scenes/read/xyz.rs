@@ -16,8 +16,14 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
     let mut frames = Frames::new(file, bytes.len());
     let mut lines = Lines::new(file, "XYZ", bytes)?;
     while !lines.only_blank_left() {
-        if !frame(&mut lines, &mut frames)? {
-            break;
+        match frame(&mut lines, &mut frames) {
+            Ok(true) => {}
+            Ok(false) => break,
+            Err(error) if lines.cut_by(&error) && frames.len() > 0 => {
+                frames.cut(Some(lines.number()), error.to_string())?;
+                break;
+            }
+            Err(error) => return Err(error),
         }
     }
     frames.finish(Format::Xyz, "no count of atoms")
@@ -46,14 +52,7 @@ fn frame(lines: &mut Lines<'_>, frames: &mut Frames<'_>) -> Result<bool, ReadErr
             return Ok(false);
         };
         at = line.number;
-        match atom(line, frames) {
-            Ok(sphere) => spheres.push(sphere),
-            Err(error) if line.open && frames.len() > 0 => {
-                frames.cut(Some(line.number), error.to_string())?;
-                return Ok(false);
-            }
-            Err(error) => return Err(error),
-        }
+        spheres.push(atom(line, frames)?);
     }
     if comment.is_none() {
         frames.cut(Some(head.number), "its comment line is missing".into())?;
