@@ -1,0 +1,63 @@
+//! Lists of spheres written for POV-Ray, one a line: `sphere {<x,y,z>,r}`, where r may be the name of a constant.
+//! This is no reader of the scene language: every other line is passed over, and a radius that is a name is drawn as
+//! [`NAMED_RADIUS`] with a warning. A line that begins as a sphere and is none is refused.
+//!
+//! POV-Ray's coordinates are left-handed; z is turned round, so that pictures are not mirrored.
+
+use super::frames::Frames;
+use super::text::{Line, Lines};
+use super::{Format, Loaded, ReadError};
+use contract::Sphere;
+
+/// The radius where the file gives a name. The teapot's points lie about 0.1 apart.
+pub(super) const NAMED_RADIUS: f32 = 0.0625;
+const WANT: &str = "a line of spheres must read: sphere {<x,y,z>,r}";
+
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
+    let mut frames = Frames::new(file, bytes.len());
+    let mut spheres = Vec::new();
+    let mut named = None;
+    for line in Lines::new(file, "POV-Ray spheres", bytes)? {
+        let rest = line.text.trim_ascii_start().strip_prefix(b"sphere");
+        if rest.and_then(<[u8]>::first).is_some_and(|b| *b == b'{' || b.is_ascii_whitespace()) {
+            spheres.push(sphere(line, &mut named)?);
+        }
+    }
+    if let Some((line, name)) = named {
+        frames.warn(Some(line), format!("radius {name:?} is a name; {NAMED_RADIUS} is used for it"));
+    }
+    if !spheres.is_empty() {
+        frames.push(spheres)?;
+    }
+    frames.finish(Format::Pov, "no line with a sphere")
+}
+
+fn sphere(line: Line<'_>, named: &mut Option<(usize, String)>) -> Result<Sphere, ReadError> {
+    let mut fields = Vec::new();
+    let mut start = None;
+    for (at, byte) in line.text.iter().enumerate() {
+        let ends = matches!(byte, b'<' | b'>' | b'{' | b'}' | b',');
+        if let (true, Some(first)) = (ends, start) {
+            fields.push(line.columns(first + 1, at));
+        }
+        start = if ends { Some(at + 1) } else { start };
+    }
+    fields.retain(|word| !word.text.is_empty());
+    let [x, y, z, r] = fields[..] else { return Err(line.missing("sphere", WANT)) };
+    let center = [x.number("x")?, y.number("y")?, z.number("z")?];
+    let center = [center[0], center[1], -center[2]];
+    let is_name = r.text[0].is_ascii_alphabetic() && r.number("radius").is_err();
+    let radius = if is_name && !names_no_number(r.text) {
+        named.get_or_insert_with(|| (line.number, r.shown()));
+        NAMED_RADIUS
+    } else {
+        r.radius("radius")?
+    };
+    let color = [214, 190, 150];
+    Ok(Sphere { center, radius, color })
+}
+
+/// Words that stand for no finite number.
+fn names_no_number(text: &[u8]) -> bool {
+    [&b"nan"[..], b"inf", b"infinity"].iter().any(|word| text.eq_ignore_ascii_case(word))
+}
