@@ -832,8 +832,9 @@ fn broken_xtc_streams_do_not_reach_the_decoder() {
     for _ in 0..150 {
         let mut broken = whole[..frame].to_vec();
         for _ in 0..1 + random.next_u64() % 3 {
-            let at =
-                (random.next_u64() % if random.next_u64() % 2 == 0 { 120 } else { frame as u64 }) as usize;
+            let at = (random.next_u64()
+                % if random.next_u64().is_multiple_of(2) { 120 } else { frame as u64 })
+                as usize;
             broken[at] ^= 1 << (random.next_u64() % 8);
         }
         let result = std::panic::catch_unwind(|| read_bytes("a.xtc", &broken, None).map(|_| ()));
