@@ -3,6 +3,7 @@
 //! The modules stand in the order in which data flows.
 
 pub mod directed;
+pub mod matrix;
 pub mod scenes;
 pub mod seed;
 
