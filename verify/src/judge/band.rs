@@ -57,7 +57,8 @@ impl Geometry {
     }
 
     /// Whether f32 neither overflows nor loses anything that counts to underflow: the largest product a F² (and
-    /// b², which is no larger) stays below 2¹²⁶; r² and a r² stay 2⁴⁰ times above the least f32, and so does a.
+    /// b², which is no larger) stays below 2¹²⁶; r², a r² and r²/a stay 2⁴⁰ times above the least f32, and
+    /// so does a; 1/a and (F² + r²)/a, which bounds t² and what is under the root, stay below 2¹²⁶ too.
     fn in_range(&self) -> bool {
         let (large, small) = (2f64.powi(126), 2f64.powi(-109));
         let square = self.ff + self.rr;
@@ -67,7 +68,9 @@ impl Geometry {
             && self.rr > small
             && self.a > small
             && self.a * self.rr > small
+            && self.rr / self.a > small
             && self.a.recip() < large
+            && square / self.a < large
     }
 
     fn textbook(&self, u: f64) -> Band {
@@ -100,7 +103,9 @@ fn roots(discriminant: f64, error: f64, near: Span, far: Span) -> Band {
     let mut t: Option<[f64; 2]> = None;
     for root in [Some(near), takes_far.then_some(far)].into_iter().flatten().filter(|root| root.hi > 0.0) {
         let [lo, hi] = t.unwrap_or([root.lo, root.hi]);
-        t = Some([lo.min(root.lo).max(0.0), hi.max(root.hi)]);
+        // What rounds to more than the largest f32 is an infinite t.
+        let top = if root.hi > f64::from(f32::MAX) { f64::INFINITY } else { root.hi };
+        t = Some([lo.min(root.lo).max(0.0), hi.max(top)]);
     }
     let may_hit = t.filter(|_| discriminant + error >= 0.0);
     Band { may_miss: discriminant - error < 0.0 || (takes_far && far.lo <= 0.0), may_hit }
