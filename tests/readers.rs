@@ -830,21 +830,51 @@ fn broken_xtc_streams_do_not_reach_the_decoder() {
         eprintln!("not judged: adk_oplsaa.xtc: data absent (run {})", catalogue::FETCH);
         return;
     };
-    let first = &whole[..whole.len() / 10 - 100];
     let mut random = seeded("broken_xtc_streams_do_not_reach_the_decoder");
     let length = i32::from_be_bytes([whole[88], whole[89], whole[90], whole[91]]);
     let frame = 92 + usize::try_from(length).expect("positive").next_multiple_of(4);
-    assert!(frame > first.len() / 2, "one frame");
-    for _ in 0..150 {
+    let (mut read, mut refused) = (0, 0);
+    for round in 0..200_u64 {
         let mut broken = whole[..frame].to_vec();
+        // Every fourth time in the header, else in the stream.
+        let (start, end) = if round.is_multiple_of(4) { (0, 92) } else { (92, frame as u64) };
         for _ in 0..1 + random.next_u64() % 3 {
-            let at =
-                (random.next_u64() % if random.next_u64() % 2 == 0 { 120 } else { frame as u64 }) as usize;
+            let at = (start + random.next_u64() % (end - start)) as usize;
             broken[at] ^= 1 << (random.next_u64() % 8);
         }
-        let result = std::panic::catch_unwind(|| read_bytes("a.xtc", &broken, None).map(|_| ()));
-        assert!(result.is_ok(), "panicked");
+        match std::panic::catch_unwind(|| read_bytes("a.xtc", &broken, None).map(|_| ())) {
+            Ok(Ok(())) => read += 1,
+            Ok(Err(_)) => refused += 1,
+            Err(_) => panic!("round {round} panicked"),
+        }
     }
+    eprintln!("{read} read, {refused} refused");
+    assert!(read > 10 && refused > 10, "some must reach the decoder and some not: {read}, {refused}");
+}
+
+/// Streams of random bits behind random headers: what the walk lets through, the decoder must decode.
+#[test]
+fn random_xtc_streams_do_not_make_the_decoder_panic() {
+    let mut random = seeded("random_xtc_streams_do_not_make_the_decoder_panic");
+    let (mut read, mut refused) = (0, 0);
+    for _ in 0..20_000 {
+        let mut below = |n: u64| random.next_u64() % n;
+        let low = (below(2 << 28) as i32 - (1 << 28)) >> below(29);
+        let high = low.saturating_add(((below(1 << 30) as i32) >> below(30)).max(0));
+        let (width, atoms) = (9 + below(64) as i32, 10 + below(30) as i32);
+        // Mostly clear bits make short runs.
+        let sparse = below(3);
+        let stream: Vec<u8> =
+            (0..below(1_200)).map(|_| (0..sparse).fold(255, |b, _| b & below(256) as u8)).collect();
+        let bytes = packed_xtc(&stream, low, high, width, atoms);
+        match std::panic::catch_unwind(|| read_bytes("a.xtc", &bytes, None).map(|_| ())) {
+            Ok(Ok(())) => read += 1,
+            Ok(Err(_)) => refused += 1,
+            Err(_) => panic!("low {low}, high {high}, width {width}, {atoms} atoms, stream {stream:02x?}"),
+        }
+    }
+    eprintln!("{read} read, {refused} refused");
+    assert!(read > 1_000 && refused > 1_000, "{read} read, {refused} refused");
 }
 
 // ---- the catalogue ----
