@@ -111,7 +111,7 @@ fn nothing_makes_a_reader_panic() {
 fn broken_xtc_streams_do_not_reach_the_decoder() {
     let path = catalogue::folder().join("adk_oplsaa.xtc");
     let Ok(whole) = std::fs::read(path) else {
-        eprintln!("not judged: adk_oplsaa.xtc: data absent (run {})", catalogue::FETCH);
+        not_judged("adk_oplsaa.xtc");
         return;
     };
     let mut random = seeded("broken_xtc_streams_do_not_reach_the_decoder");

@@ -58,7 +58,7 @@ fn broken_xyz() {
         ("a.xyz", text("1\n\nH 0 0 -inf\n"), &["a.xyz:3:7", "z is \"-inf\""]),
         ("a.xyz", text("1\n\nH 1e39 0 0\n"), &["a.xyz:3:3", "x is \"1e39\""]),
         ("a.xyz", text("2\n\nH 0 0 0\n\n\n\n\n\n\n\n"), &["a.xyz:4:1", "element is missing"]),
-        ("a.xyz", text("1\n\nH 0 0 0\n\n1\n\nH 0 0 0\n"), &["a.xyz:4:1", "count of atoms is missing"]),
+        ("a.xyz", text("1\n\nH 0 0 0\n \n\nO 0 0 0\n"), &["a.xyz:6:1", "count of atoms is \"O\""]),
         ("a.xyz", text("1\n\nH 0 0 0\nH 0 0 0\n"), &["a.xyz:4:1", "\"H\""]),
         ("a.xyz", text("1\nno atoms"), &["a.xyz", "no complete frame"]),
         ("a.xyz", vec![b'1', 0, 0], &["byte 1 is zero"]),

@@ -1,5 +1,6 @@
 //! Real files, bundled or fetched, read whole: counts, first atoms, hashes.
 
+use crate::samples::not_judged;
 use contract::Sphere;
 use sha2::{Digest, Sha256};
 use verify::scenes::catalogue::{self, Data, ENTRIES, Source, SourceError};
@@ -15,8 +16,8 @@ fn fetched(name: &str) -> Option<Loaded> {
     let entry = ENTRIES.iter().find(|e| e.name == name).expect("an entry of the catalogue");
     match entry.load(&catalogue::folder()) {
         Ok(loaded) => Some(loaded),
-        Err(SourceError::DataAbsent { name, how }) => {
-            eprintln!("not judged: {name}: data absent (run {how})");
+        Err(SourceError::DataAbsent { name, .. }) => {
+            not_judged(name);
             None
         }
         Err(error) => panic!("{name}: {error}"),
@@ -112,7 +113,7 @@ fn adk_has_only_known_elements() {
     let folder = catalogue::folder();
     let path = folder.join("adk_open.pdb");
     if !path.exists() {
-        eprintln!("not judged: adk_open.pdb: data absent (run {})", catalogue::FETCH);
+        not_judged("adk_open.pdb");
         return;
     }
     let loaded = read(&path).expect("a real file");

@@ -172,3 +172,9 @@ pub(crate) fn ok(name: &str, bytes: &[u8]) -> Loaded {
 pub(crate) fn frame_sizes(loaded: &Loaded) -> Vec<usize> {
     loaded.animation.frames().iter().map(|f| f.spheres().len()).collect()
 }
+
+/// Says past the capture of test output that a real file is absent.
+pub(crate) fn not_judged(what: &str) {
+    let line = format!("not judged: {what}: data absent (run {})\n", verify::scenes::catalogue::FETCH);
+    std::io::stderr().write_all(line.as_bytes()).expect("stderr");
+}

@@ -44,6 +44,53 @@ fn samples_hold_what_was_written() {
 }
 
 #[test]
+fn lammps_columns_are_found_by_name() {
+    let dump = |columns: &str, atom: &str| {
+        let head =
+            "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n-1 1\n0 10\n5 25\n";
+        ok("a.lammpstrj", format!("{head}ITEM: ATOMS {columns}\n{atom}\n\n").as_bytes())
+    };
+    for (columns, atom, center, radius) in [
+        ("x y z", "1 2 3", [1.0, 2.0, 3.0], 0.5),
+        ("zu yu xu", "1 2 3", [3.0, 2.0, 1.0], 0.5),
+        ("id xs ys zs", "9 0.5 0.25 0.5", [0.0, 2.5, 15.0], 0.5),
+        ("diameter x y z", "3 1 2 3", [1.0, 2.0, 3.0], 1.5),
+        ("x y z radius vx", "1 2 3 4 5", [1.0, 2.0, 3.0], 4.0),
+        ("element x y z", "O 1 2 3", [1.0, 2.0, 3.0], 1.52),
+        ("xs x ys y zs z", "9 1 9 2 9 3", [1.0, 2.0, 3.0], 0.5),
+    ] {
+        let loaded = dump(columns, atom);
+        let sphere = loaded.animation.frames()[0].spheres()[0];
+        assert_eq!((sphere.center, sphere.radius), (center, radius), "{columns}");
+        assert_eq!(loaded.warnings.len(), usize::from(radius == 0.5), "{columns}: a guess is a warning");
+    }
+    let color = |atom: &str| dump("type x y z", atom).animation.frames()[0].spheres()[0].color;
+    assert_ne!(color("1 0 0 0"), color("2 0 0 0"), "types differ in colour");
+}
+
+/// Files of 2023 have a length of 64 bits; all else is as before.
+#[test]
+fn xtc_of_2023_is_read() {
+    let old = packed_xtc(
+        &[0x12, 0x34, 0x08, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+        0,
+        15,
+        20,
+        12,
+    );
+    let mut new = Vec::new();
+    for frame in old.chunks(old.len() / 2) {
+        new.extend(2023_i32.to_be_bytes());
+        new.extend(&frame[4..88]);
+        new.extend([0; 4]);
+        new.extend(&frame[88..]);
+    }
+    assert_eq!(ok("a.xtc", &new).animation, ok("a.xtc", &old).animation);
+    let some = ok("a.xtc", &new).animation.frames()[0].spheres().iter().any(|s| s.center != [0.0; 3]);
+    assert!(some, "not all at the origin");
+}
+
+#[test]
 fn carriage_returns_short_lines_and_junk_are_no_trouble() {
     let with_crlf = PDB.replace('\n', "\r\n").replace("           N  ", "   junk \u{fffd}");
     assert_eq!(ok("a.pdb", with_crlf.as_bytes()).animation, ok("a.pdb", PDB.as_bytes()).animation);
@@ -51,6 +98,8 @@ fn carriage_returns_short_lines_and_junk_are_no_trouble() {
         ok("a.xyz", XYZ.replace('\n', "\r\n").as_bytes()).animation,
         ok("a.xyz", XYZ.as_bytes()).animation
     );
+    let spaced = XYZ.replace("0\nempty\n", "\n \n0\nempty\n\n");
+    assert_eq!(ok("a.xyz", spaced.as_bytes()).animation, ok("a.xyz", XYZ.as_bytes()).animation);
     let cut_at_54: String = PDB.lines().map(|l| format!("{:.54}\n", l.trim_end())).collect();
     assert_eq!(ok("a.pdb", cut_at_54.as_bytes()).animation, ok("a.pdb", PDB.as_bytes()).animation);
 }

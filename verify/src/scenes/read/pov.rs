@@ -33,16 +33,15 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
 }
 
 fn sphere(line: Line<'_>, named: &mut Option<(usize, String)>) -> Result<Sphere, ReadError> {
+    let delimiter = |b: &u8| matches!(b, b'<' | b'>' | b'{' | b'}' | b',');
     let mut fields = Vec::new();
-    let mut start = None;
-    for (at, byte) in line.text.iter().enumerate() {
-        let ends = matches!(byte, b'<' | b'>' | b'{' | b'}' | b',');
-        if let (true, Some(first)) = (ends, start) {
-            fields.push(line.columns(first + 1, at));
-        }
-        start = if ends { Some(at + 1) } else { start };
+    let mut start = line.text.iter().position(delimiter);
+    // Four fields make a sphere, a fifth spoils it, and more are not looked at.
+    while let Some(first) = start.filter(|_| fields.len() < 5) {
+        start = line.text[first + 1..].iter().position(delimiter).map(|n| first + 1 + n);
+        let field = start.map(|end| line.columns(first + 2, end));
+        fields.extend(field.filter(|word| !word.text.is_empty()));
     }
-    fields.retain(|word| !word.text.is_empty());
     let [x, y, z, r] = fields[..] else { return Err(line.missing("sphere", WANT)) };
     let center = [x.number("x")?, y.number("y")?, z.number("z")?];
     let center = [center[0], center[1], -center[2]];
