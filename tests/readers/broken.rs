@@ -75,6 +75,11 @@ fn dcd_with(at: usize, four: [u8; 4]) -> Vec<u8> {
 #[test]
 fn broken_dcd() {
     let whole = dcd(false, true, 2, 0);
+    // A record of x that is too short, with one of y that makes up for it, and lengths that agree.
+    let mut uneven = whole.clone();
+    for (at, length) in [(252, 8_u8), (264, 8), (268, 24), (296, 24)] {
+        uneven[at..at + 4].copy_from_slice(&[length, 0, 0, 0]);
+    }
     // Where things stand: first record 0..92, titles 92..184, atoms 184..196, cell 196..252, x 252..276.
     refused(&[
         ("a.dcd", vec![], &["empty"]),
@@ -92,6 +97,7 @@ fn broken_dcd() {
         ("a.dcd", dcd_with(252, 4_i32.to_be_bytes()), &["byte 252: length of a record"]),
         ("a.dcd", dcd_with(256, f32::NAN.to_le_bytes()), &["byte 256: x is NaN"]),
         ("a.dcd", dcd_with(284, f32::INFINITY.to_le_bytes()), &["byte 284: y is inf"]),
+        ("a.dcd", uneven, &["byte 252: length of a record of coordinates is 8", "16"]),
         ("a.dcd", whole[..92].to_vec(), &["no complete frame", "byte 92"]),
         ("a.dcd", whole[..196].to_vec(), &["no complete frame", "ends after its header"]),
         ("a.dcd", whole[..300].to_vec(), &["no complete frame", "a frame needs 128 bytes, 104 are left"]),

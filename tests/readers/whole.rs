@@ -43,6 +43,17 @@ fn samples_hold_what_was_written() {
     assert_eq!(Format::of("X.PDB.GZ").expect("case does not matter"), Format::Pdb);
 }
 
+/// The first light with a direction counts; NFF has them at places, we have them far away.
+#[test]
+fn nff_lights_that_cannot_be_kept_are_warned_of() {
+    let loaded = ok("a.nff", b"l 0 0 0\nl 0 -3 4 1 1 1\nl 1 0 0\ns 0 0 0 1\n");
+    assert_eq!(loaded.animation.frames()[0].light(), [0.0, -0.6, 0.8]);
+    let lines: Vec<_> = loaded.warnings.iter().map(|w| w.line).collect();
+    assert_eq!(lines, [Some(1), Some(3)]);
+    let none = ok("a.nff", b"l 0 0 0\ns 0 0 0 1\n");
+    assert_eq!(none.animation.frames()[0].light(), contract::DEFAULT_LIGHT);
+}
+
 #[test]
 fn lammps_columns_are_found_by_name() {
     let dump = |columns: &str, atom: &str| {
