@@ -37,7 +37,8 @@ fn samples_hold_what_was_written() {
     let sorted = lammps.animation.frames()[1].spheres();
     assert_eq!((sorted[0].center, sorted[0].radius), ([4.0, 5.0, 6.0], 0.25), "id 1 comes first");
     let pov = ok("a.inc", POV.as_bytes());
-    assert_eq!(pov.animation.frames()[0].spheres()[0].center, [1.0, 2.0, -3.0]);
+    assert_eq!(pov.animation.frames()[0].spheres()[0].center, [1.0, 3.0, 2.0], "right-handed, y up");
+    assert_eq!(pov.animation.frames()[0].spheres()[1].radius, 0.05, "for a name");
     assert_eq!(frame_sizes(&ok("a.xyz.gz", &packed(XYZ.as_bytes()))), [2, 0, 1]);
     assert_eq!(frame_sizes(&ok("a.xyz", &packed(XYZ.as_bytes()))), [2, 0, 1], "gzip is told by its bytes");
     assert_eq!(Format::of("X.PDB.GZ").expect("case does not matter"), Format::Pdb);

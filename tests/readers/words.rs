@@ -1,8 +1,10 @@
 //! Words for scenes, and the tables of names and elements.
 
+use contract::Size;
 use std::path::Path;
 use verify::scenes::catalogue::{self, Data, ENTRIES, Source, SourceError};
 use verify::scenes::elements;
+use verify::scenes::frame::{Framing, in_view};
 
 #[test]
 fn words_stand_for_sources() {
@@ -36,6 +38,19 @@ fn words_stand_for_sources() {
     }
     let too_many = Source::parse("uniform:99999999999").expect("well formed").load().expect_err("too many");
     assert!(matches!(too_many, SourceError::Generate(_)), "{too_many}");
+}
+
+/// The sphereflake is shown as its author shows it; a wish for another size keeps the rest.
+#[test]
+fn sphereflake_brings_its_own_view() {
+    let flake = Source::parse("sphereflake:2").expect("a generator").load().expect("made");
+    let wish = Framing { size: Size::new(64, 64).ok(), ..Framing::default() };
+    for wish in [Framing::default(), wish] {
+        let camera = flake.camera(&wish).expect("framed");
+        assert_eq!(camera.eye(), [2.1, 1.3, 1.7]);
+        assert!(flake.animation.frames()[0].spheres().iter().all(|s| in_view(&camera, s)));
+        assert_eq!(Some(camera.size()), wish.size.or(Size::new(1280, 720).ok()));
+    }
 }
 
 #[test]
