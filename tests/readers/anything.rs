@@ -2,11 +2,11 @@
 
 use crate::samples::*;
 use contract::{Animation, DEFAULT_LIGHT, Scene, Sphere};
-use rand_core::{Rng, SeedableRng};
-use rand_pcg::Pcg64;
+use rand::Rng;
 use verify::scenes::catalogue;
 use verify::scenes::read::read_bytes;
 use verify::scenes::write;
+use verify::seed::{generator, seed};
 
 fn bits(animation: &Animation) -> Vec<u32> {
     let all = animation.frames().iter().flat_map(|f| {
@@ -43,20 +43,14 @@ fn json_round_trip_is_bit_for_bit() {
     assert_eq!(bits(&animation), bits(&read_back.animation));
 }
 
-/// A fresh seed, printed; `CGT_SEED` sets it.
-fn seeded(test: &str) -> Pcg64 {
-    let fresh = || {
-        let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH);
-        now.map_or(1, |d| d.as_nanos() as u64)
-    };
-    let set = std::env::var("CGT_SEED").ok().and_then(|s| s.parse().ok());
-    let seed = set.unwrap_or_else(fresh);
+fn seeded(test: &str) -> impl Rng {
+    let seed = seed();
     eprintln!("{test}: CGT_SEED={seed}");
-    Pcg64::seed_from_u64(seed)
+    generator(seed, 0)
 }
 
 /// Flips, cuts, doubles and overwrites.
-fn mutated(random: &mut Pcg64, bytes: &[u8]) -> Vec<u8> {
+fn mutated(random: &mut impl Rng, bytes: &[u8]) -> Vec<u8> {
     let mut out = bytes.to_vec();
     let mut below = |n: usize| (random.next_u64() % n.max(1) as u64) as usize;
     for _ in 0..1 + below(4) {

@@ -2,5 +2,17 @@
 //!
 //! The modules stand in the order in which data flows.
 
+pub mod directed;
+pub mod matrix;
 pub mod scenes;
+pub mod seed;
+
+pub mod subject;
+
+pub mod judge;
 pub mod verdict;
+
+pub mod claims;
+pub mod picture;
+pub mod report;
+pub mod run;

@@ -73,9 +73,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] for the first thing found wrong: the count, the light, then the spheres in order.
     pub fn new(spheres: Vec<Sphere>, background: Rgb, light: [f32; 3]) -> Result<Self, SceneError> {
-        if spheres.len() > MAX_SPHERES {
-            return Err(SceneError::TooManySpheres { count: spheres.len() });
-        }
+        Self::check_count(spheres.len())?;
         if !light.iter().all(|x| x.is_finite()) {
             return Err(SceneError::Light { light });
         }
@@ -88,6 +86,14 @@ impl Scene {
             }
         }
         Ok(Self { spheres, background, light })
+    }
+
+    /// Whether a scene may have so many spheres: to be asked before memory is taken for them.
+    ///
+    /// # Errors
+    /// [`SceneError::TooManySpheres`] above [`MAX_SPHERES`].
+    pub fn check_count(count: usize) -> Result<(), SceneError> {
+        if count > MAX_SPHERES { Err(SceneError::TooManySpheres { count }) } else { Ok(()) }
     }
 
     /// The spheres; a sphere's id is its index here.

@@ -5,7 +5,7 @@
 //! standard deviations. It needs no logarithm, whose last bit differs between machines.
 
 use contract::{Rgb, Sphere};
-use rand_core::{Rng, SeedableRng};
+use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64;
 
 /// Colours that can be told apart, also by the colour-blind (after Okabe and Ito), and lightened.

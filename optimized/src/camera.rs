@@ -1,0 +1,70 @@
+//! From the camera to a block: the directions of its 4x4 rays, by rule 1 of the contract, bit for bit.
+//! Lane 4 j + i is column i, row j of the block.
+
+use crate::machine::{LANES, Machine};
+use contract::Camera;
+
+/// Side of a block in pixels (the paper's packet).
+pub const BLOCK: u32 = 4;
+
+/// The rays of one block. They start at the eye, which is not kept: everything is seen from there.
+#[derive(Clone, Copy)]
+pub struct Block<M: Machine> {
+    /// Directions, as the contract gives them.
+    pub dir: [M::F; 3],
+    /// 1 / d·d.
+    pub inv_dd: M::F,
+    /// d·d.
+    pub dd: M::F,
+}
+
+/// A camera spread over lanes once a frame.
+#[derive(Clone, Copy)]
+pub struct CameraLanes<M: Machine> {
+    corner: [M::F; 3],
+    du: [M::F; 3],
+    dv: [M::F; 3],
+}
+
+impl<M: Machine> CameraLanes<M> {
+    /// Spreads a camera.
+    #[inline(always)]
+    pub fn new(m: M, camera: &Camera) -> Self {
+        let spread = |v: [f32; 3]| v.map(|x| m.splat(x));
+        Self { corner: spread(camera.corner()), du: spread(camera.du()), dv: spread(camera.dv()) }
+    }
+
+    /// Kernel: the rays through the pixels whose middles are (x, y).
+    #[inline(always)]
+    pub fn block(&self, m: M, x: M::F, y: M::F) -> Block<M> {
+        let dir = [0, 1, 2].map(
+            #[inline(always)]
+            |i| m.add(m.add(self.corner[i], m.mul(x, self.du[i])), m.mul(y, self.dv[i])),
+        );
+        Block::new(m, dir)
+    }
+}
+
+impl<M: Machine> Block<M> {
+    /// Kernel: a block of given directions.
+    #[inline(always)]
+    pub fn new(m: M, dir: [M::F; 3]) -> Self {
+        let dd = m.dot(dir, dir);
+        Self { dir, inv_dd: m.div(m.splat(1.0), dd), dd }
+    }
+}
+
+/// Rim: the middles of the pixels of the block whose first pixel is (x, y). Pixels beyond the image repeat
+/// its last column or row.
+#[inline(always)]
+#[allow(clippy::cast_precision_loss, reason = "pixel indices are below 2^14, exact in f32")]
+pub fn middles<M: Machine>(m: M, camera: &Camera, x: u32, y: u32) -> (M::F, M::F) {
+    let size = camera.size();
+    let column = |lane: u32| (x + lane % BLOCK).min(size.width() - 1) as f32 + 0.5;
+    let row = |lane: u32| (y + lane / BLOCK).min(size.height() - 1) as f32 + 0.5;
+    let (mut xs, mut ys) = ([0.0; LANES], [0.0; LANES]);
+    for (lane, i) in (0..).zip(0..LANES) {
+        (xs[i], ys[i]) = (column(lane), row(lane));
+    }
+    (m.lanes(xs), m.lanes(ys))
+}

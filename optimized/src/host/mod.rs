@@ -1,0 +1,5 @@
+//! The machines of the host.
+
+mod scalar;
+
+pub use scalar::Scalar;

@@ -1,0 +1,118 @@
+//! What executes a kernel: sixteen lanes of f32, of i32 and of yes/no, and the few operations on them.
+//!
+//! A kernel takes a [`Machine`] first, then lanes, and gives lanes; it never touches memory. So the same
+//! source runs on host SIMD, on a model that counts cycles, and on symbols that a solver reads. Every f32
+//! operation is one IEEE 754 operation rounded to nearest, ties to even, with subnormal numbers, in each lane.
+//! There is no fused operation, no estimate, and no sum over lanes.
+//!
+//! Data steers control flow by two doors only, [`Machine::any`] and [`Machine::again`]; each names its
+//! [`Site`]. The *rim* (`lanes…`, `to_…`) is where values enter and leave; only what calls kernels uses it.
+
+/// Lanes of a machine: the rays of a 4x4 block, or sixteen slices of a grid.
+pub const LANES: usize = 16;
+
+/// A place where data decides what is executed next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Site {
+    /// Do the block's rays lack a common major axis and sign?
+    Incoherent,
+    /// Does any ray of the block come within the sphere's radius?
+    Sphere,
+    /// Can a later slice still win for any ray?
+    Unfinished,
+}
+
+/// Sixteen lanes and what can be done with them.
+pub trait Machine: Copy {
+    /// Sixteen f32.
+    type F: Copy;
+    /// Sixteen i32.
+    type I: Copy;
+    /// Sixteen times yes or no.
+    type B: Copy;
+
+    /// Rim: lanes from an array.
+    fn lanes(self, x: [f32; LANES]) -> Self::F;
+    /// Rim: lanes from an array.
+    fn lanes_i(self, x: [i32; LANES]) -> Self::I;
+    /// Rim: an array from lanes.
+    fn to_array(self, x: Self::F) -> [f32; LANES];
+    /// Rim: an array from lanes.
+    fn to_array_i(self, x: Self::I) -> [i32; LANES];
+
+    /// The same number in every lane.
+    fn splat(self, x: f32) -> Self::F;
+    /// The same number in every lane.
+    fn splat_i(self, x: i32) -> Self::I;
+
+    /// x + y.
+    fn add(self, x: Self::F, y: Self::F) -> Self::F;
+    /// x − y.
+    fn sub(self, x: Self::F, y: Self::F) -> Self::F;
+    /// x y.
+    fn mul(self, x: Self::F, y: Self::F) -> Self::F;
+    /// x / y.
+    fn div(self, x: Self::F, y: Self::F) -> Self::F;
+    /// √x, NaN below zero.
+    fn sqrt(self, x: Self::F) -> Self::F;
+
+    /// x < y; no if either is NaN.
+    fn lt(self, x: Self::F, y: Self::F) -> Self::B;
+    /// x <= y; no if either is NaN.
+    fn le(self, x: Self::F, y: Self::F) -> Self::B;
+    /// x < y.
+    fn lt_i(self, x: Self::I, y: Self::I) -> Self::B;
+    /// Both.
+    fn and(self, x: Self::B, y: Self::B) -> Self::B;
+    /// Either or both.
+    fn or(self, x: Self::B, y: Self::B) -> Self::B;
+    /// The opposite.
+    fn not(self, x: Self::B) -> Self::B;
+    /// `yes` where `choose`, else `no`.
+    fn select(self, choose: Self::B, yes: Self::F, no: Self::F) -> Self::F;
+    /// `yes` where `choose`, else `no`.
+    fn select_i(self, choose: Self::B, yes: Self::I, no: Self::I) -> Self::I;
+
+    /// x + y, modulo 2³².
+    fn add_i(self, x: Self::I, y: Self::I) -> Self::I;
+    /// The largest integer not above x, saturated to i32; 0 for NaN.
+    fn floor(self, x: Self::F) -> Self::I;
+    /// x cut off towards zero, saturated to i32; 0 for NaN.
+    fn truncate(self, x: Self::F) -> Self::I;
+
+    /// The smallest lane, in every lane. No lane may be NaN.
+    fn smallest(self, x: Self::F) -> Self::F;
+    /// The largest lane, in every lane. No lane may be NaN.
+    fn largest(self, x: Self::F) -> Self::F;
+
+    /// Door: is any lane yes?
+    fn any(self, x: Self::B, site: Site) -> bool;
+
+    /// −x, by an operation that is exact for every x.
+    #[inline(always)]
+    fn neg(self, x: Self::F) -> Self::F {
+        self.sub(self.splat(-0.0), x)
+    }
+
+    /// The lesser; y if either is NaN.
+    #[inline(always)]
+    fn min(self, x: Self::F, y: Self::F) -> Self::F {
+        self.select(self.lt(x, y), x, y)
+    }
+
+    /// The greater; y if either is NaN.
+    #[inline(always)]
+    fn max(self, x: Self::F, y: Self::F) -> Self::F {
+        self.select(self.lt(y, x), x, y)
+    }
+
+    /// (u·v) summed as the contract sums it: `(x + y) + z`.
+    #[inline(always)]
+    fn dot(self, u: [Self::F; 3], v: [Self::F; 3]) -> Self::F {
+        let [x, y, z] = [0, 1, 2].map(
+            #[inline(always)]
+            |i| self.mul(u[i], v[i]),
+        );
+        self.add(self.add(x, y), z)
+    }
+}

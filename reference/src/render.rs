@@ -1,0 +1,138 @@
+//! A picture: every pixel's ray, traced alone. Rows go to the threads as these become free.
+
+use crate::{Hit, Ray, Undecided, double, exact, shade, single};
+use contract::{Camera, Image, Scene, SizeError};
+use rayon::prelude::*;
+use thiserror::Error;
+
+/// What decides whether, where and in which order a ray hits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// The truth: exact, by integers wherever f64 intervals cannot decide.
+    Exact,
+    /// The truth, by integers alone: about 1,000 times slower.
+    ExactUnfiltered,
+    /// b² − a q in f64.
+    F64,
+    /// b² − a q in f32.
+    F32Textbook,
+    /// r² minus the squared distance of the centre from the ray, in f32.
+    F32Perpendicular,
+}
+
+/// A naive tracer with its arithmetic and number of threads chosen.
+#[derive(Clone, Copy, Debug)]
+pub struct Tracer {
+    arithmetic: Arithmetic,
+    threads: usize,
+}
+
+/// A picture and how it came about.
+#[derive(Clone, Debug)]
+pub struct Rendering {
+    /// The picture.
+    pub image: Image,
+    /// For [`Arithmetic::Exact`], what its filter left undecided; otherwise zeros.
+    pub undecided: Undecided,
+}
+
+/// Why there is no picture.
+#[derive(Debug, Error)]
+pub enum RenderError {
+    /// No memory for it.
+    #[error(transparent)]
+    Size(#[from] SizeError),
+    /// The system gave no threads.
+    #[error("cannot start {threads} threads: {cause}")]
+    Threads {
+        /// How many were asked for; 0 is one a core.
+        threads: usize,
+        /// What the system said.
+        cause: rayon::ThreadPoolBuildError,
+    },
+}
+
+impl Tracer {
+    /// A tracer that uses every core.
+    #[must_use]
+    pub fn new(arithmetic: Arithmetic) -> Self {
+        Self { arithmetic, threads: 0 }
+    }
+
+    /// The same with so many threads; 0 means one a core. The picture does not depend on it.
+    #[must_use]
+    pub fn threads(self, threads: usize) -> Self {
+        Self { threads, ..self }
+    }
+
+    /// Renders a scene.
+    ///
+    /// # Errors
+    /// [`RenderError`] if memory or threads cannot be had.
+    pub fn render(&self, scene: &Scene, camera: &Camera) -> Result<Rendering, RenderError> {
+        self.render_with(scene, camera, &|| ())
+    }
+
+    /// Renders a scene and calls `row_done` from any thread after each row.
+    ///
+    /// # Errors
+    /// As [`Tracer::render`].
+    pub fn render_with(
+        &self,
+        scene: &Scene,
+        camera: &Camera,
+        row_done: &(dyn Fn() + Sync),
+    ) -> Result<Rendering, RenderError> {
+        let mut image = Image::new(camera.size(), scene.background())?;
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads)
+            .build()
+            .map_err(|cause| RenderError::Threads { threads: self.threads, cause })?;
+        let undecided = pool.install(|| self.fill(scene, camera, &mut image, row_done));
+        Ok(Rendering { image, undecided })
+    }
+
+    /// The nearest hit of one ray.
+    #[must_use]
+    pub fn trace(&self, ray: &Ray, scene: &Scene) -> Option<Hit> {
+        self.trace_counting(ray, scene, &mut Undecided::default())
+    }
+
+    /// The nearest hit of one ray; what the filter of [`Arithmetic::Exact`] leaves undecided is added up.
+    #[must_use]
+    pub fn trace_counting(&self, ray: &Ray, scene: &Scene, undecided: &mut Undecided) -> Option<Hit> {
+        let spheres = scene.spheres();
+        match self.arithmetic {
+            Arithmetic::Exact => exact::nearest(ray, spheres, undecided),
+            Arithmetic::ExactUnfiltered => exact::nearest_unfiltered(ray, spheres),
+            Arithmetic::F64 => double::nearest(ray, spheres),
+            Arithmetic::F32Textbook => single::nearest(ray, spheres, single::textbook),
+            Arithmetic::F32Perpendicular => single::nearest(ray, spheres, single::perpendicular),
+        }
+    }
+
+    fn fill(
+        &self,
+        scene: &Scene,
+        camera: &Camera,
+        image: &mut Image,
+        row_done: &(dyn Fn() + Sync),
+    ) -> Undecided {
+        let width = image.size.width() as usize;
+        let ids = image.ids.par_chunks_mut(width);
+        let rows = ids.zip(image.t.par_chunks_mut(width)).zip(image.rgba.par_chunks_mut(width));
+        let rows = rows.enumerate().map(|(y, ((ids, t), rgba))| {
+            let mut undecided = Undecided::default();
+            let y = u32::try_from(y).expect("rows are below 2^14");
+            for (x, i) in (0..).zip(0..width) {
+                let ray = Ray::of_pixel(camera, x, y);
+                if let Some(hit) = self.trace_counting(&ray, scene, &mut undecided) {
+                    (ids[i], t[i], rgba[i]) = (hit.id, hit.t, shade::shade(scene, &ray, hit));
+                }
+            }
+            row_done();
+            undecided
+        });
+        rows.reduce(Undecided::default, |x, y| x + y)
+    }
+}

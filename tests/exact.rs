@@ -1,0 +1,66 @@
+//! Is the truth true? The filtered exact tracer against the unfiltered one, and both against answers that are
+//! known by construction.
+
+use contract::{DEFAULT_LIGHT, Scene};
+use rayon::prelude::*;
+use reference::{Arithmetic, Tracer, Undecided};
+use std::collections::BTreeMap;
+use verify::directed::{KINDS, Kind, case};
+use verify::seed::{count, generator, seed};
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Tally {
+    cases: u64,
+    hits: u64,
+    known: u64,
+    undecided: Undecided,
+}
+
+/// `CGT_EXACT_CASES` directed and random rays, 100,000 every day.
+#[test]
+fn filtered_and_unfiltered_decide_alike() {
+    let (seed, cases) = (seed(), count("CGT_EXACT_CASES", 100_000));
+    eprintln!("CGT_SEED={seed}, {cases} rays");
+    let tallies = (0..cases).into_par_iter().map(|i| {
+        let kind = KINDS[usize::try_from(i).expect("fits") % KINDS.len()];
+        BTreeMap::from([(kind, judge(kind, seed, i))])
+    });
+    let tallies = tallies.reduce(BTreeMap::new, |mut all, one| {
+        for (kind, tally) in one {
+            let sum = all.entry(kind).or_insert(Tally::default());
+            sum.cases += tally.cases;
+            sum.hits += tally.hits;
+            sum.known += tally.known;
+            sum.undecided = sum.undecided + tally.undecided;
+        }
+        all
+    });
+    for (kind, tally) in &tallies {
+        eprintln!("{kind:?}: {tally:?}");
+        assert!(tally.hits > tally.cases / 50, "{kind:?}: hardly a hit, nothing is at stake");
+    }
+    assert_eq!(tallies.len(), KINDS.len(), "a kind was not judged");
+    let all = tallies.values().fold(Undecided::default(), |sum, tally| sum + tally.undecided);
+    let reached = [all.hits, all.orders, all.roundings];
+    assert!(
+        reached.iter().all(|&n| n >= cases / 1000),
+        "a stage behind the filter was hardly reached: {all:?}"
+    );
+    assert!(tallies.values().map(|t| t.known).sum::<u64>() > cases / 4);
+}
+
+fn judge(kind: Kind, seed: u64, i: u64) -> Tally {
+    let case = case(kind, &mut generator(seed, i));
+    let scene = Scene::new(case.spheres.clone(), [0; 3], DEFAULT_LIGHT).expect("valid by construction");
+    let mut undecided = Undecided::default();
+    let filtered = Tracer::new(Arithmetic::Exact).trace_counting(&case.ray, &scene, &mut undecided);
+    let unfiltered = Tracer::new(Arithmetic::ExactUnfiltered).trace(&case.ray, &scene);
+    let bits = |hit: Option<reference::Hit>| hit.map(|hit| (hit.id, hit.t.to_bits()));
+    let replay = format!("case {i} of CGT_SEED={seed}: {case:?}");
+    assert_eq!(bits(filtered), bits(unfiltered), "filtered, unfiltered; {replay}");
+    if let Some(known) = case.known {
+        let known = known.map(|(id, t)| (id, t.to_bits()));
+        assert_eq!(bits(unfiltered), known, "unfiltered, known; {replay}");
+    }
+    Tally { cases: 1, hits: u64::from(filtered.is_some()), known: u64::from(case.known.is_some()), undecided }
+}

@@ -1,0 +1,196 @@
+//! Can the judge be fooled? Pictures with one planted fault each must get the verdict and the counts that fit it;
+//! sound pictures of every form must not be called wrong.
+
+use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size};
+use rayon::prelude::*;
+use reference::{Arithmetic, Tracer};
+use verify::directed::{KINDS, case};
+use verify::judge::band::band;
+use verify::judge::compare::{compare, ulps_apart};
+use verify::judge::{Judgement, judge};
+use verify::scenes::catalogue::Source;
+use verify::scenes::frame::Framing;
+use verify::seed::{count, generator, seed};
+use verify::subject::{Promise, Rounding};
+use verify::verdict::{Comparison, Verdict};
+
+const FORMS: [Rounding; 3] = [Rounding::TextbookF64, Rounding::TextbookF32, Rounding::PerpendicularF32];
+
+struct Bench {
+    scene: Scene,
+    camera: Camera,
+    truth: Image,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let loaded = Source::parse("uniform:200:5").and_then(|s| s.load()).expect("generated");
+        let size = Some(Size::new(96, 64).expect("small"));
+        let camera = Framing { size, ..Framing::default() }.camera(&loaded.animation).expect("in view");
+        let scene = loaded.animation.frames()[0].clone();
+        let truth = Tracer::new(Arithmetic::Exact).render(&scene, &camera).expect("small").image;
+        Self { scene, camera, truth }
+    }
+
+    fn naive(&self, rounding: Rounding) -> Image {
+        Tracer::new(rounding.naive()).render(&self.scene, &self.camera).expect("small").image
+    }
+
+    fn judge(&self, subject: &Image, promise: Promise, naive: Option<&Image>) -> Judgement {
+        judge(&self.scene, &self.camera, &self.truth, subject, promise, naive)
+    }
+
+    /// The first pixel after the middle that hits, or that misses.
+    fn pixel(&self, hit: bool) -> usize {
+        let fits = |i: &usize| (self.truth.ids[*i] != MISS) == hit;
+        (self.truth.ids.len() / 2..self.truth.ids.len()).find(fits).expect("both occur")
+    }
+}
+
+#[test]
+fn sound_pictures_pass() {
+    let bench = Bench::new();
+    assert_eq!(bench.judge(&bench.truth, Promise::Exact, None).verdict, Verdict::Equal);
+    for rounding in FORMS {
+        let image = bench.naive(rounding);
+        for promise in [Promise::Rounded(rounding), Promise::EqualToNaive(rounding)] {
+            let judgement = bench.judge(&image, promise, Some(&image));
+            assert!(matches!(judgement.verdict, Verdict::Equal | Verdict::WithinBound), "{judgement:?}");
+        }
+    }
+    let f32 = bench.naive(Rounding::TextbookF32);
+    assert_eq!(bench.judge(&f32, Promise::Exact, None).verdict, Verdict::Wrong);
+    assert_eq!(
+        bench.judge(&f32, Promise::EqualToNaive(Rounding::TextbookF32), None).verdict,
+        Verdict::NotJudged
+    );
+    let other = bench.naive(Rounding::PerpendicularF32);
+    let judgement = bench.judge(&f32, Promise::EqualToNaive(Rounding::TextbookF32), Some(&other));
+    assert_eq!(judgement.verdict, Verdict::Wrong, "the picture of another form passed as the naive one");
+}
+
+type Plant = (&'static str, fn(&Bench, &mut Image), fn(&Comparison) -> u64);
+
+/// Faults, and the count that must rise by one.
+const PLANTS: [Plant; 7] = [
+    ("missing", |b, image| image.ids[b.pixel(true)] = MISS, |c| c.missing),
+    ("extra", |b, image| image.ids[b.pixel(false)] = 3, |c| c.extra),
+    ("swapped", |b, image| image.ids[b.pixel(true)] ^= 1, |c| c.swapped),
+    ("no such sphere", |b, image| image.ids[b.pixel(true)] = 1_000_000, |c| c.swapped),
+    ("t", |b, image| image.t[b.pixel(true)] *= 1.01, |c| c.wrong_t),
+    ("t is NaN", |b, image| image.t[b.pixel(true)] = f32::NAN, |c| c.wrong_t),
+    ("color", |b, image| image.rgba[b.pixel(true)][1] ^= 1, |c| c.wrong_color),
+];
+
+#[test]
+fn every_planted_fault_is_wrong_and_counted() {
+    let bench = Bench::new();
+    for rounding in FORMS {
+        for (name, plant, count) in PLANTS {
+            // The truth itself is an answer that rounding explains, so only the plant is at fault.
+            let mut image = bench.truth.clone();
+            plant(&bench, &mut image);
+            for promise in [Promise::Exact, Promise::Rounded(rounding), Promise::EqualToNaive(rounding)] {
+                let judgement = bench.judge(&image, promise, Some(&bench.truth));
+                assert_eq!(judgement.verdict, Verdict::Wrong, "{name}, {promise:?}: {judgement:?}");
+                let comparison = judgement.comparison.expect("compared");
+                assert_eq!(count(&comparison), 1, "{name}, {promise:?}: {comparison:?}");
+                assert!(comparison.first_wrong.is_some(), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn pictures_of_other_shapes_are_wrong() {
+    let bench = Bench::new();
+    let cut: [fn(&mut Image); 3] = [|i| _ = i.ids.pop(), |i| i.t.push(1.0), |i| i.rgba.clear()];
+    for cut in cut {
+        let mut image = bench.truth.clone();
+        cut(&mut image);
+        let judgement = bench.judge(&image, Promise::Exact, None);
+        assert_eq!((judgement.verdict, judgement.comparison), (Verdict::Wrong, None));
+    }
+    let turned = Image::new(Size::new(64, 96).expect("small"), [0; 3]).expect("small");
+    assert!(compare(&bench.truth, &turned).is_err(), "as many pixels, another shape");
+}
+
+#[test]
+fn the_gravest_fault_is_first() {
+    let bench = Bench::new();
+    let mut image = bench.truth.clone();
+    image.rgba[0][0] ^= 1;
+    let first = |image: &Image| compare(&bench.truth, image).expect("same shape").first_wrong;
+    assert_eq!(first(&image), Some([0, 0]));
+    let i = bench.pixel(true);
+    image.t[i] = image.t[i].next_up();
+    let place = [u32::try_from(i % 96).expect("small"), u32::try_from(i / 96).expect("small")];
+    assert_eq!(first(&image), Some(place));
+    let last = image.ids.len() - 1;
+    image.ids[last] = 77;
+    assert_eq!(first(&image), Some([95, 63]));
+}
+
+#[test]
+fn ulps_are_steps() {
+    assert_eq!(ulps_apart(1.0, 1.0f32.next_up()), 1);
+    assert_eq!(ulps_apart(-0.0, 0.0), 0);
+    assert_eq!(ulps_apart(f32::from_bits(1), -f32::from_bits(1)), 2);
+    assert_eq!(ulps_apart(f32::MAX, f32::INFINITY), 1);
+    assert_eq!(ulps_apart(1.0, 2.0), 1 << 23);
+    assert_eq!(ulps_apart(f32::NAN, 1.0), u64::MAX);
+}
+
+#[test]
+fn t_is_summed_up_by_rank() {
+    let bench = Bench::new();
+    let mut image = bench.truth.clone();
+    let hits: Vec<usize> = (0..image.ids.len()).filter(|&i| image.ids[i] != MISS).collect();
+    for (n, &i) in hits.iter().enumerate() {
+        for _ in 0..(n % 100) {
+            image.t[i] = image.t[i].next_up();
+        }
+    }
+    let t = compare(&bench.truth, &image).expect("same shape").t_ulp;
+    assert_eq!(t.count, hits.len() as u64);
+    assert!((48..=50).contains(&t.median) && (97..=99).contains(&t.p99) && t.max == 99, "{t:?}");
+}
+
+/// The band of each form holds what the shipped form answers, and is no wider than it needs to be by much: among
+/// close cases it must rule something out.
+#[test]
+fn bands_hold_what_the_forms_answer() {
+    let (seed, cases) = (seed(), count("CGT_BAND_CASES", 200_000));
+    eprintln!("CGT_SEED={seed}, {cases} rays");
+    let tally = |i: u64| {
+        let kind = KINDS[usize::try_from(i).expect("fits") % KINDS.len()];
+        let case = case(kind, &mut generator(seed, i));
+        let sphere = case.spheres[0];
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("valid by construction");
+        let mut counts = [0u64; 3];
+        for rounding in FORMS {
+            let Some(band) = band(rounding, &case.ray, &sphere) else { continue };
+            let answer = Tracer::new(rounding.naive()).trace(&case.ray, &scene);
+            let holds = match (answer, band.may_hit) {
+                (None, _) => band.may_miss,
+                (Some(hit), Some([lo, hi])) => (lo..=hi).contains(&f64::from(hit.t)),
+                (Some(_), None) => false,
+            };
+            assert!(
+                holds,
+                "{rounding:?} answers {answer:?}, {band:?}; case {i} of CGT_SEED={seed}: {case:?}"
+            );
+            let truth = Tracer::new(Arithmetic::Exact).trace(&case.ray, &scene);
+            counts[0] += 1;
+            counts[1] += u64::from(band.may_miss != band.may_hit.is_some());
+            counts[2] += u64::from(truth.is_some() != answer.is_some());
+        }
+        counts
+    };
+    let sum = |x: [u64; 3], y: [u64; 3]| [0, 1, 2].map(|i| x[i] + y[i]);
+    let [stated, certain, wrong] = (0..cases).into_par_iter().map(tally).reduce(|| [0; 3], sum);
+    eprintln!("{stated} answers, {certain} of them certain, {wrong} wrong");
+    assert!(stated > cases, "the bound states something for hardly any ray");
+    assert!(certain > stated / 3, "the bound rules hardly anything out");
+    assert!(wrong > cases / 1000, "hardly any answer is wrong, so nothing was at stake");
+}

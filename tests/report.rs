@@ -1,0 +1,398 @@
+//! Does the report say everything it was told, in a page that needs nothing but itself?
+
+use contract::{Camera, Image, MISS, Size};
+use std::collections::HashSet;
+use std::error::Error;
+use verify::report::{
+    Absent, Claim, Counter, Environment, Evidence, Judge, Report, ReportError, SCHEMA_VERSION, ScenePictures,
+    SceneReport, SubjectReport, TEXT_WIDTH, html, json, overall, sanitized, text, word, write,
+};
+use verify::verdict::{Comparison, UlpSummary, Verdict};
+
+type Outcome = Result<(), Box<dyn Error>>;
+
+const VERDICTS: [Verdict; 5] =
+    [Verdict::Equal, Verdict::WithinBound, Verdict::Undecidable, Verdict::Wrong, Verdict::NotJudged];
+/// A name that would break out of text, attribute, terminal and folder.
+const HOSTILE: &str = "../<script>alert('x')</script>\" onload=\"y\u{1b}[31m";
+
+fn truth() -> Result<Image, Box<dyn Error>> {
+    let mut image = Image::new(Size::new(64, 48)?, [9, 9, 20])?;
+    image.ids[100..900].fill(3);
+    image.t[100..900].fill(4.25);
+    image.rgba[100..900].fill([200, 120, 40, 255]);
+    Ok(image)
+}
+
+fn subject(name: &str, verdict: Verdict) -> SubjectReport {
+    let wrong = u64::from(verdict == Verdict::Wrong);
+    let comparison = Comparison {
+        pixels: 3072,
+        hits: 800,
+        wrong_ids: wrong,
+        missing: wrong,
+        t_ulp: UlpSummary { count: 800 - wrong, median: 0, p99: 0, max: 0 },
+        wrong_color: wrong,
+        first_wrong: (wrong > 0).then_some([58, 1]),
+        ..Comparison::default()
+    };
+    SubjectReport {
+        name: name.to_owned(),
+        description: format!("{name} & its description"),
+        promise: format!("promise of {name}"),
+        verdict,
+        because: format!("reason for {name}"),
+        comparison: (verdict != Verdict::NotJudged).then_some(comparison),
+        seconds: Some(0.5),
+        rays_per_second: Some(123_456_789.0),
+        picture: None,
+        first_wrong: (wrong > 0).then(|| "pixel (58, 1) <replay>".to_owned()),
+    }
+}
+
+fn scene(name: &str, subjects: Vec<SubjectReport>) -> Result<SceneReport, Box<dyn Error>> {
+    let camera = Camera::new(
+        [0.0, 0.1, -5.0],
+        [-1.0, -1.0, 1.0],
+        [0.1, 0.0, 0.0],
+        [0.0, 0.1, 0.0],
+        Size::new(64, 48)?,
+    )?;
+    Ok(SceneReport {
+        name: name.to_owned(),
+        description: "a bar of one sphere".to_owned(),
+        provenance: "made by hand".to_owned(),
+        spheres: 4,
+        frame: 0,
+        frames: 1,
+        width: 64,
+        height: 48,
+        camera: (&camera).into(),
+        warnings: vec!["line 3 <is> empty".to_owned()],
+        judge: Judge {
+            name: "exact".to_owned(),
+            counters: vec![Counter { name: "decided by integers".to_owned(), value: 1_234_567 }],
+        },
+        hits: 800,
+        picture: None,
+        subjects,
+    })
+}
+
+/// Two scenes, a subject for each verdict, a claim for each kind of evidence but one.
+fn report() -> Result<Report, Box<dyn Error>> {
+    let subjects =
+        || VERDICTS.map(|verdict| subject(&format!("subject {}", word(verdict)), verdict)).to_vec();
+    let claims = Evidence::ALL[..6].iter().map(|kind| Claim {
+        statement: format!("this & that is {}", kind.word()),
+        evidence: *kind,
+        figure: format!("figure of {}", kind.word()),
+        how: format!("cgt show <{}>", kind.word()),
+    });
+    let scenes = vec![scene("bar", subjects())?, scene(HOSTILE, subjects())?];
+    Ok(Report {
+        schema_version: SCHEMA_VERSION,
+        title: "A <title>".to_owned(),
+        verdict: overall(&scenes),
+        environment: Environment {
+            program: "cgt 0.0".to_owned(),
+            target: "made-up".to_owned(),
+            cpu: None,
+            simd: "none".to_owned(),
+            rustc: "rustc".to_owned(),
+            threads: 3,
+            date: "2026-01-02T03:04:05Z".to_owned(),
+            command_line: "cgt judge <all>".to_owned(),
+            seed: Some(u64::MAX),
+        },
+        scenes,
+        claims: claims.collect(),
+        absent: vec![Absent { judge: "Embree".to_owned(), why: "it is not here ".repeat(20) }],
+    })
+}
+
+/// For each scene: a picture for every subject but the last; the wrong one misses a pixel.
+fn pictures(report: &Report) -> Result<Vec<ScenePictures>, Box<dyn Error>> {
+    let truth = truth()?;
+    let mut wrong = truth.clone();
+    wrong.ids[122] = MISS;
+    let mut sets = Vec::new();
+    for scene in &report.scenes {
+        let mut set = ScenePictures::new(&truth)?;
+        for subject in &scene.subjects {
+            match subject.verdict {
+                Verdict::NotJudged => set.skip(),
+                Verdict::Wrong => set.add(&truth, &wrong)?,
+                _ => set.add(&truth, &truth)?,
+            }
+        }
+        sets.push(set);
+    }
+    Ok(sets)
+}
+
+fn page() -> Result<String, Box<dyn Error>> {
+    let report = report()?;
+    Ok(html(&report, &pictures(&report)?)?)
+}
+
+/// As HTML escapes it, in the form this page uses.
+fn escaped(text: &str) -> String {
+    let signs = [('&', "&#38;"), ('<', "&#60;"), ('>', "&#62;"), ('"', "&#34;"), ('\'', "&#39;")];
+    signs.iter().fold(text.to_owned(), |text, (sign, code)| match sign {
+        '&' => text.replace('&', code),
+        sign => text.replace(*sign, code),
+    })
+}
+
+#[test]
+fn page_needs_nothing_but_itself() -> Outcome {
+    let page = page()?;
+    for foreign in ["http://", "https://", "<script", "<link", "<iframe", "@import", "url(", "//cdn"] {
+        assert!(!page.contains(foreign), "{foreign}");
+    }
+    let values = |attribute: &str| {
+        page.split(attribute)
+            .skip(1)
+            .map(|rest| rest.split('"').next().unwrap_or_default())
+            .collect::<Vec<_>>()
+    };
+    let sources = values(" src=\"");
+    assert!(sources.iter().all(|source| source.starts_with("data:image/png;base64,iVBOR")));
+    // Each scene: the truth once, and for its one wrong subject three panels and three magnified ones.
+    assert_eq!(sources.len(), 2 * 7);
+    let ids: HashSet<_> = values(" id=\"").into_iter().collect();
+    assert_eq!(ids.len(), values(" id=\"").len(), "an id stands twice");
+    for link in values(" href=\"") {
+        assert!(link.strip_prefix('#').is_some_and(|id| ids.contains(id)), "{link} leads nowhere");
+    }
+    Ok(())
+}
+
+#[test]
+fn page_shows_text_as_text() -> Outcome {
+    let page = page()?;
+    assert!(!page.contains("<script>") && !page.contains("\" onload="));
+    assert!(page.contains(&escaped(HOSTILE)));
+    for told in ["A <title>", "line 3 <is> empty", "pixel (58, 1) <replay>", "cgt judge <all>"] {
+        assert!(page.contains(&escaped(told)) && !page.contains(told), "{told}");
+    }
+    Ok(())
+}
+
+#[test]
+fn page_says_all_it_was_told() -> Outcome {
+    let (page, report) = (page()?, report()?);
+    for scene in &report.scenes {
+        for subject in &scene.subjects {
+            for told in [&subject.name, &subject.description, &subject.promise, &subject.because] {
+                let times = page.matches(&escaped(told)).count();
+                assert!(times >= report.scenes.len(), "{told}: {times}");
+            }
+        }
+    }
+    for claim in &report.claims {
+        for told in [&claim.statement, &claim.figure, &claim.how] {
+            assert!(page.contains(&escaped(told)), "{told}");
+        }
+    }
+    for kind in Evidence::ALL {
+        let number = u8::from(kind != Evidence::NotShown);
+        assert!(page.contains(&format!("<b>{number}</b> {}</li>", kind.word())), "{kind:?}, zeros included");
+    }
+    for verdict in VERDICTS {
+        assert!(page.contains(&format!("<b>2</b> {}</li>", word(verdict))), "{verdict:?}");
+    }
+    let bits = format!("0x{:08x}", 0.1_f32.to_bits());
+    let seed = u64::MAX.to_string();
+    for told in ["Embree", "1\u{202f}234\u{202f}567", "58, 1", "123", &bits, &seed, "2026-01-02T03:04:05Z"] {
+        assert!(page.contains(told), "{told}");
+    }
+    Ok(())
+}
+
+#[test]
+fn every_picture_on_the_page_has_words() -> Outcome {
+    let page = page()?;
+    for tag in page.split("<img ").skip(1).map(|rest| rest.split('>').next().unwrap_or_default()) {
+        let alt = tag.split(" alt=\"").nth(1).unwrap_or_default();
+        assert!(alt.len() > 10, "no words for a picture");
+    }
+    Ok(())
+}
+
+/// A run of nothing is no pass, and its page and table stand.
+#[test]
+fn an_empty_report_is_not_judged() -> Outcome {
+    let empty = Report { scenes: Vec::new(), claims: Vec::new(), absent: Vec::new(), ..report()? };
+    assert_eq!(overall(&empty.scenes), Verdict::NotJudged);
+    assert!(html(&empty, &[])?.contains("</html>"));
+    assert!(text(&empty, false).contains("subject"));
+    Ok(())
+}
+
+#[test]
+fn the_worst_verdict_is_the_verdict() -> Outcome {
+    use Verdict::{Equal, NotJudged, Undecidable, WithinBound, Wrong};
+    let run = |verdicts: &[Verdict]| -> Result<Verdict, Box<dyn Error>> {
+        let subjects = verdicts.iter().map(|verdict| subject("s", *verdict)).collect();
+        Ok(overall(&[scene("a", subjects)?, scene("b", vec![subject("s", Equal)])?]))
+    };
+    assert_eq!(run(&[])?, Equal);
+    assert_eq!(run(&[Equal, WithinBound])?, WithinBound);
+    assert_eq!(run(&[Undecidable, WithinBound])?, Undecidable);
+    assert_eq!(run(&[Undecidable, NotJudged])?, NotJudged);
+    assert_eq!(run(&[Wrong, NotJudged])?, Wrong);
+    Ok(())
+}
+
+#[test]
+fn json_begins_with_its_schema_and_holds_the_data() -> Outcome {
+    let text = json(&report()?)?;
+    assert!(text.starts_with("{\n  \"schema_version\": 1,"));
+    let data: serde_json::Value = serde_json::from_str(&text)?;
+    assert_eq!(data["verdict"], "Wrong");
+    assert_eq!(data["scenes"][1]["name"], HOSTILE);
+    assert_eq!(data["scenes"][0]["camera"]["du"]["bits"][0], "0x3dcccccd");
+    assert_eq!(data["scenes"][0]["camera"]["du"]["decimal"][0].to_string(), "0.1");
+    assert_eq!(data["scenes"][0]["subjects"][3]["comparison"]["missing"], 1);
+    assert_eq!(data["scenes"][0]["subjects"][4]["comparison"], serde_json::Value::Null);
+    assert_eq!(data["environment"]["seed"], u64::MAX);
+    assert_eq!(data["claims"][5]["evidence"], "Refuted");
+    Ok(())
+}
+
+#[test]
+fn text_fits_and_is_aligned() -> Outcome {
+    let mut report = report()?;
+    report.scenes[0].name = "球".repeat(30);
+    report.scenes[0].frames = 20_000;
+    report.scenes[0].frame = 12_345;
+    if let Some(comparison) = &mut report.scenes[0].subjects[0].comparison {
+        *comparison = Comparison {
+            wrong_ids: u64::MAX,
+            wrong_t: 999_999,
+            wrong_color: 134_217_728,
+            t_ulp: UlpSummary { max: 4_000_000_000, ..UlpSummary::default() },
+            ..*comparison
+        };
+    }
+    let table = text(&report, false);
+    let lines: Vec<_> = table.lines().collect();
+    for line in &lines {
+        let width = textwrap::core::display_width(line);
+        assert!(width <= TEXT_WIDTH, "{width} columns: {line}");
+        assert!(!line.contains(char::is_control), "{line:?}");
+    }
+    let rows = &lines[1..11];
+    let ends: HashSet<_> = rows.iter().map(|line| textwrap::core::display_width(line)).collect();
+    assert_eq!(ends.len(), 1, "the last column is ragged:\n{table}");
+    for (row, verdict) in rows.iter().zip(VERDICTS.iter().cycle()) {
+        assert!(row.contains(word(*verdict)), "{row}");
+    }
+    assert!(rows[0].contains("#12345") && rows[0].contains("1.3e8"), "{}", rows[0]);
+    assert_eq!(lines.last(), Some(&"≠ wrong"));
+    Ok(())
+}
+
+#[test]
+fn color_changes_nothing_but_color() -> Outcome {
+    let report = report()?;
+    let colored = text(&report, true);
+    let plain: String = colored
+        .split('\u{1b}')
+        .enumerate()
+        .map(|(k, part)| if k == 0 { part } else { after_m(part) })
+        .collect();
+    assert_ne!(colored, plain);
+    assert_eq!(plain, text(&report, false));
+    Ok(())
+}
+
+fn after_m(part: &str) -> &str {
+    part.split_once('m').map_or("", |(_, rest)| rest)
+}
+
+#[test]
+fn folder_holds_page_data_and_pictures() -> Outcome {
+    let report = report()?;
+    let home = tempfile::tempdir()?;
+    let folder = home.path().join("made").join("anew");
+    let paths = write(&folder, &report, &pictures(&report)?)?;
+    let mut files: Vec<_> = std::fs::read_dir(&folder)?
+        .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
+        .collect::<std::io::Result<_>>()?;
+    files.sort();
+    assert_eq!(files.len(), 2 + 2 * (1 + 4));
+    assert_eq!(paths.pictures.len(), 10);
+    assert!(files.contains(&"bar-truth.png".to_owned()), "{files:?}");
+    assert!(files.contains(&"bar-subject-wrong-triptych.png".to_owned()), "{files:?}");
+    assert!(files.contains(&"script-alert-x-script-onload-y-31m-truth.png".to_owned()), "{files:?}");
+    let data: serde_json::Value = serde_json::from_slice(&std::fs::read(&paths.json)?)?;
+    assert_eq!(data["scenes"][0]["picture"], "bar-truth.png");
+    assert_eq!(data["scenes"][0]["subjects"][3]["picture"], "bar-subject-wrong-triptych.png");
+    assert_eq!(data["scenes"][0]["subjects"][4]["picture"], serde_json::Value::Null);
+    assert!(std::fs::read_to_string(&paths.html)?.ends_with("</html>"));
+    for picture in &paths.pictures {
+        image::load_from_memory(&std::fs::read(picture)?)?;
+    }
+    Ok(())
+}
+
+/// Names that become the same file name do not overwrite each other.
+#[test]
+fn every_picture_has_a_file_of_its_own() -> Outcome {
+    let mut report = report()?;
+    report.scenes[0].name = "A b".to_owned();
+    report.scenes[1].name = "a/B".to_owned();
+    report.scenes.iter_mut().flat_map(|scene| &mut scene.subjects).for_each(|s| s.name = "é".to_owned());
+    let folder = tempfile::tempdir()?;
+    let paths = write(folder.path(), &report, &pictures(&report)?)?;
+    let different: HashSet<_> = paths.pictures.iter().collect();
+    assert_eq!(different.len(), 10);
+    assert!(different.contains(&folder.path().join("a-b-truth-2.png")), "{different:?}");
+    Ok(())
+}
+
+#[test]
+fn file_names_are_tame() {
+    for (name, expected) in [
+        ("../../etc/passwd", "etc-passwd"),
+        ("  Two  Words ", "two-words"),
+        ("..", "unnamed"),
+        ("", "unnamed"),
+        ("球", "unnamed"),
+        ("a\0b\\c:d", "a-b-c-d"),
+    ] {
+        assert_eq!(sanitized(name), expected, "{name:?}");
+    }
+    assert!(sanitized(&"long ".repeat(1000)).len() <= 60);
+}
+
+#[test]
+fn pictures_that_do_not_match_are_refused() -> Outcome {
+    let report = report()?;
+    let folder = tempfile::tempdir()?;
+    let refused = write(folder.path(), &report, &[]);
+    assert!(matches!(refused, Err(ReportError::Scenes { scenes: 2, pictures: 0 })));
+    let mut sets = pictures(&report)?;
+    sets[1].skip();
+    let refused = write(folder.path(), &report, &sets);
+    assert!(matches!(refused, Err(ReportError::Subjects { subjects: 5, pictures: 6, .. })));
+    assert_eq!(std::fs::read_dir(folder.path())?.count(), 0);
+    Ok(())
+}
+
+/// Where a file cannot be written, there is no page that would pass for the finished report.
+#[test]
+fn a_failed_report_has_no_page() -> Outcome {
+    let report = report()?;
+    let folder = tempfile::tempdir()?;
+    std::fs::create_dir_all(folder.path().join("report.json").join("x"))?;
+    let failed = write(folder.path(), &report, &pictures(&report)?);
+    assert!(matches!(failed, Err(ReportError::Write(_))));
+    assert!(!folder.path().join("report.html").exists());
+    let below_a_file = folder.path().join("bar-truth.png").join("deeper");
+    assert!(matches!(write(&below_a_file, &report, &pictures(&report)?), Err(ReportError::Folder { .. })));
+    Ok(())
+}

@@ -1,0 +1,5 @@
+//! The subcommands.
+
+pub(crate) mod render;
+pub(crate) mod scenes;
+pub(crate) mod verify;

@@ -1,0 +1,84 @@
+//! `cgt verify`: scenes in, verdicts on the terminal and a report folder out.
+
+use crate::args::Verify;
+use crate::environment::environment;
+use crate::{Failure, progress, say};
+use contract::Scene;
+use std::io::{IsTerminal, Write};
+use std::process::ExitCode;
+use verify::claims::claims;
+use verify::report::{Absent, Report, SCHEMA_VERSION, overall, text, write};
+use verify::run::{Frame, run};
+use verify::scenes::catalogue::Source;
+use verify::scenes::read::Loaded;
+use verify::subject::{SUBJECTS, Subject};
+use verify::verdict::Verdict;
+
+pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
+    let wanted = |s: &&dyn Subject| args.subjects.is_empty() || args.subjects.iter().any(|n| n == s.name());
+    let subjects: Vec<&dyn Subject> = SUBJECTS.into_iter().filter(wanted).collect();
+    let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
+    for word in &args.scenes {
+        let (loaded, scene) = load(word, args.view.frame)?;
+        warn(word, &loaded);
+        let (description, provenance) = about(word);
+        let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+        let frame = Frame {
+            name: word,
+            description: &description,
+            provenance: &provenance,
+            scene: &scene,
+            camera: &loaded.camera(&args.view.framing())?,
+            frame: [args.view.frame, loaded.animation.frames().len()],
+            warnings: &warnings,
+        };
+        let (report, set) =
+            run(&frame, &subjects, args.view.threads(), &|what, rows| progress::bar(word, what, rows))?;
+        scenes.push(report);
+        pictures.push(set);
+    }
+    let report = Report {
+        schema_version: SCHEMA_VERSION,
+        title: format!("Verdict on {}", args.scenes.join(", ")),
+        verdict: overall(&scenes),
+        environment: environment(args.view.threads()),
+        scenes,
+        claims: claims(),
+        absent: vec![Absent { judge: "Embree".into(), why: "this version does not ask it".into() }],
+    };
+    let paths = write(&args.out, &report, &pictures)?;
+    say(&text(&report, std::io::stdout().is_terminal()));
+    say(&format!("report: {}\n", paths.html.display()));
+    Ok(match report.verdict {
+        Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
+        Verdict::Wrong => ExitCode::from(1),
+        Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
+    })
+}
+
+/// A scene's file or maker, and the frame asked for.
+pub(crate) fn load(word: &str, frame: usize) -> Result<(Loaded, Scene), Failure> {
+    let loaded = Source::parse(word)?.load()?;
+    let frames = loaded.animation.frames();
+    let Some(scene) = frames.get(frame) else {
+        return Err(format!("{word} has frames 0 to {}, not {frame}", frames.len() - 1).into());
+    };
+    let scene = scene.clone();
+    Ok((loaded, scene))
+}
+
+/// What a reader passed over goes to standard error.
+pub(crate) fn warn(word: &str, loaded: &Loaded) {
+    for warning in &loaded.warnings {
+        _ = writeln!(std::io::stderr(), "{word}: {warning}");
+    }
+}
+
+/// What a scene is and where it comes from.
+fn about(word: &str) -> (String, String) {
+    match Source::parse(word) {
+        Ok(Source::Named(entry)) => (entry.what.into(), entry.provenance.into()),
+        Ok(Source::Generated(_)) => ("a generated scene".into(), "made, the same on every machine".into()),
+        _ => ("a file".into(), "the user's own".into()),
+    }
+}

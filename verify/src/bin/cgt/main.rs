@@ -1,0 +1,45 @@
+//! `cgt`: renders sphere scenes, judges tracers of them, and writes what it found into a report.
+//!
+//! Exit codes: 0 all agree, 1 a mismatch, 2 bad input or usage, 3 something needed for a verdict is missing.
+
+mod args;
+mod cmd;
+mod environment;
+mod progress;
+
+use args::{Cli, Command};
+use clap::Parser;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// Any error that ends the program with code 2.
+type Failure = Box<dyn std::error::Error + Send + Sync>;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let outcome = match cli.command {
+        None => cmd::verify::verify(&cli.verify),
+        Some(Command::Verify(args)) => cmd::verify::verify(&args),
+        Some(Command::Render(args)) => cmd::render::render(&args),
+        Some(Command::Scenes) => cmd::scenes::scenes(),
+    };
+    outcome.unwrap_or_else(|failure| {
+        // One line for the error, one for each cause below it that says something new.
+        let mut text = format!("cgt: {failure}");
+        let mut cause = failure.source();
+        while let Some(error) = cause {
+            let line = error.to_string();
+            if !text.contains(&line) {
+                text += &format!("\n  because {line}");
+            }
+            cause = error.source();
+        }
+        _ = writeln!(std::io::stderr(), "{text}");
+        ExitCode::from(2)
+    })
+}
+
+/// Prints to standard output; a reader that has gone away is no error.
+fn say(text: &str) {
+    _ = std::io::stdout().write_all(text.as_bytes());
+}

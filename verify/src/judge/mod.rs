@@ -1,0 +1,148 @@
+//! Judges: the truth is the reference's `Exact` picture; a subject's picture is compared with it bit by bit,
+//! and every difference is held against the error bound of the subject's own promise.
+//!
+//! In: truth, subject's picture, promise, and for a promise of equality the naive picture of the same form.
+//! Out: a [`Judgement`]. A picture that cannot be compared is `Wrong`, one that was never made `NotJudged`.
+
+pub mod band;
+pub mod compare;
+
+use crate::subject::{Promise, Rounding};
+use crate::verdict::{Comparison, Verdict};
+use band::band;
+use compare::{Fault, compare, fault_at};
+use contract::{Camera, Image, MISS, Scene};
+use rayon::prelude::*;
+use reference::Ray;
+
+/// A verdict and what it rests on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// The word.
+    pub verdict: Verdict,
+    /// One sentence on why.
+    pub because: String,
+    /// The counts; `None` if nothing was compared.
+    pub comparison: Option<Comparison>,
+}
+
+/// Judges a subject's picture. `naive` is the reference's picture in the form of the promise, needed for
+/// [`Promise::EqualToNaive`] only.
+#[must_use]
+pub fn judge(
+    scene: &Scene,
+    camera: &Camera,
+    truth: &Image,
+    subject: &Image,
+    promise: Promise,
+    naive: Option<&Image>,
+) -> Judgement {
+    let mut comparison = match compare(truth, subject) {
+        Ok(comparison) => comparison,
+        Err(shapeless) => return wrong(None, shapeless.to_string()),
+    };
+    let equal = comparison.wrong_ids + comparison.wrong_t + comparison.wrong_color == 0;
+    let rounding = match promise {
+        Promise::Exact if equal => return judgement(Verdict::Equal, comparison, "equal bit for bit"),
+        Promise::Exact => return wrong(Some(comparison), "differs where it promised not to".into()),
+        Promise::Rounded(rounding) => rounding,
+        Promise::EqualToNaive(rounding) => {
+            let twin = naive.map(|naive| compare(naive, subject));
+            match twin {
+                None => return judgement(Verdict::NotJudged, comparison, "the naive picture is missing"),
+                Some(Err(shapeless)) => return wrong(Some(comparison), shapeless.to_string()),
+                Some(Ok(twin)) if twin.first_wrong.is_some() => {
+                    let [x, y] = twin.first_wrong.unwrap_or_default();
+                    let text = format!(
+                        "{} pixels differ from the naive picture of the same form, first at ({x}, {y})",
+                        twin.wrong_ids + twin.wrong_t.max(twin.wrong_color),
+                    );
+                    return wrong(Some(comparison), text);
+                }
+                Some(Ok(_)) => rounding,
+            }
+        }
+    };
+    explain(scene, camera, truth, subject, rounding, &mut comparison);
+    let as_naive = match promise {
+        Promise::EqualToNaive(_) => "bit for bit the naive picture; ",
+        _ => "",
+    };
+    if comparison.unexplained > 0 {
+        let text =
+            format!("{as_naive}{} pixels are wrong beyond what rounding explains", comparison.unexplained);
+        wrong(Some(comparison), text)
+    } else if comparison.undecidable > 0 {
+        let text = format!("{as_naive}{} pixels lie beyond the form's range", comparison.undecidable);
+        judgement(Verdict::Undecidable, comparison, &text)
+    } else if equal {
+        judgement(Verdict::Equal, comparison, &format!("{as_naive}equal to the truth bit for bit"))
+    } else {
+        let text = format!("{as_naive}rounding explains every difference from the truth");
+        judgement(Verdict::WithinBound, comparison, &text)
+    }
+}
+
+fn judgement(verdict: Verdict, comparison: Comparison, because: &str) -> Judgement {
+    Judgement { verdict, because: because.into(), comparison: Some(comparison) }
+}
+
+fn wrong(comparison: Option<Comparison>, because: String) -> Judgement {
+    Judgement { verdict: Verdict::Wrong, because, comparison }
+}
+
+/// Holds every differing pixel against the form's bound and counts those it does not explain.
+fn explain(
+    scene: &Scene,
+    camera: &Camera,
+    truth: &Image,
+    subject: &Image,
+    rounding: Rounding,
+    comparison: &mut Comparison,
+) {
+    let width = truth.size.width() as usize;
+    let rows = (0..camera.size().height()).into_par_iter().map(|y| {
+        let mut counts = [0u64; 2];
+        for (x, i) in (0..camera.size().width()).zip(y as usize * width..) {
+            let Some(fault) = fault_at(truth, subject, i) else { continue };
+            let ray = Ray::of_pixel(camera, x, y);
+            match explains(scene, &ray, rounding, fault, subject.ids[i], subject.t[i]) {
+                Some(true) => {}
+                Some(false) => counts[0] += 1,
+                None => counts[1] += 1,
+            }
+        }
+        counts
+    });
+    let [unexplained, undecidable] = rows.reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+    (comparison.unexplained, comparison.undecidable) = (unexplained, undecidable);
+}
+
+/// Whether rounding can turn this ray's truth into that answer. `None` if the bound states nothing.
+///
+/// The answer's own sphere must be one that may be hit, at a t that may be had; and no sphere that must be
+/// hit may be certain to be nearer. The colour of an equal id and t is never a matter of rounding.
+fn explains(scene: &Scene, ray: &Ray, rounding: Rounding, fault: Fault, id: u32, t: f32) -> Option<bool> {
+    if fault == Fault::Color {
+        return Some(false);
+    }
+    if id != MISS {
+        let Some(sphere) = scene.spheres().get(id as usize) else { return Some(false) };
+        let own = band(rounding, ray, sphere)?;
+        let Some([lo, hi]) = own.may_hit else { return Some(false) };
+        if !(lo..=hi).contains(&f64::from(t)) {
+            return Some(false);
+        }
+    }
+    if fault == Fault::T {
+        return Some(true);
+    }
+    for sphere in scene.spheres() {
+        let band = band(rounding, ray, sphere)?;
+        let certain = band.may_hit.filter(|_| !band.may_miss);
+        if certain.is_some_and(|[_, hi]| id == MISS || hi < f64::from(t)) {
+            return Some(false);
+        }
+    }
+    Some(true)
+}

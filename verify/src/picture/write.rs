@@ -1,0 +1,76 @@
+//! Writes a file whole or not at all: the bytes go to a temporary file in the same folder, which then takes the
+//! file's name. A path and bytes come in; what fails is named with the path and the cause, and then the file
+//! that was there before is still there and the temporary one is gone.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile};
+use thiserror::Error;
+
+/// Why a file was not written.
+#[derive(Debug, Error)]
+pub enum WriteError {
+    /// The path has no file name: it is empty, a root, or ends in `..`.
+    #[error("`{}` names no file", path.display())]
+    NoName {
+        /// As given.
+        path: PathBuf,
+    },
+    /// No file could be made beside it: the folder is missing, read-only, or no folder.
+    #[error("cannot make a file in the folder of `{}`: {cause}", path.display())]
+    Folder {
+        /// As given.
+        path: PathBuf,
+        /// What the system says.
+        #[source]
+        cause: std::io::Error,
+    },
+    /// The bytes did not all reach the disk: it is full, or a quota is.
+    #[error("cannot write the {bytes} bytes of `{}`: {cause}", path.display())]
+    Bytes {
+        /// As given.
+        path: PathBuf,
+        /// How many there are.
+        bytes: usize,
+        /// What the system says.
+        #[source]
+        cause: std::io::Error,
+    },
+    /// The finished file could not take its name: a folder has it, or its owner forbids.
+    #[error("cannot put a file in the place of `{}`: {cause}", path.display())]
+    Place {
+        /// As given.
+        path: PathBuf,
+        /// What the system says.
+        #[source]
+        cause: std::io::Error,
+    },
+}
+
+/// Writes the bytes to the path, in place of a file that may be there.
+///
+/// # Errors
+/// [`WriteError`], which names the path and the step that failed.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
+    let at = || path.to_path_buf();
+    if path.file_name().is_none() {
+        return Err(WriteError::NoName { path: at() });
+    }
+    // The parent of a bare name is the empty path, which means the current folder but cannot be opened.
+    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = temporary(folder).map_err(|cause| WriteError::Folder { path: at(), cause })?;
+    // Some file systems tell of a full disk only when the bytes must reach it.
+    let written = file.write_all(bytes).and_then(|()| file.as_file().sync_all());
+    written.map_err(|cause| WriteError::Bytes { path: at(), bytes: bytes.len(), cause })?;
+    file.persist(path).map_err(|failed| WriteError::Place { path: at(), cause: failed.error })?;
+    Ok(())
+}
+
+/// Temporary files are private unless told otherwise; a report is as readable as the umask lets it be.
+fn temporary(folder: &Path) -> std::io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    builder.prefix(".cgt-").suffix(".part");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
+}

@@ -1,0 +1,88 @@
+//! The report as one HTML page that needs nothing but itself: style inline, pictures as `data:` URIs, no script.
+//! A [`Report`] and the pictures of its scenes come in, the page goes out. All text is escaped by the template
+//! `templates/report.html`; its content security policy forbids it to load anything.
+
+use super::pictures::ZOOM_SIDE;
+use super::view::{Badge, HEADINGS, SceneView};
+use super::words::{VERDICTS, sentence};
+use super::{Evidence, Report, ScenePictures};
+use crate::picture::{PALETTE, RARE};
+use askama::Template;
+
+#[derive(Template)]
+#[template(path = "report.html")]
+struct Page<'a> {
+    report: &'a Report,
+    badge: Badge,
+    sentence: &'static str,
+    tally: Vec<(Badge, usize)>,
+    headings: [&'static str; 12],
+    legend: Vec<(String, &'static str)>,
+    how_drawn: String,
+    zoom_side: u32,
+    seed: Option<String>,
+    evidence: Vec<(&'static str, usize)>,
+    columns: Vec<&'a str>,
+    scenes: Vec<SceneView<'a>>,
+}
+
+/// The page. `pictures` has one entry for each scene; what lacks is left out of the page.
+///
+/// # Errors
+/// If the template fails, which its types give no cause for.
+pub fn html(report: &Report, pictures: &[ScenePictures]) -> Result<String, askama::Error> {
+    let none = ScenePictures::default();
+    let scenes = report.scenes.iter().enumerate();
+    let page = Page {
+        report,
+        badge: report.verdict.into(),
+        sentence: sentence(report.verdict),
+        tally: tally(report),
+        headings: HEADINGS,
+        legend: PALETTE
+            .iter()
+            .map(|(_, [r, g, b], what)| (format!("#{r:02x}{g:02x}{b:02x}"), *what))
+            .collect(),
+        how_drawn: format!(
+            "The ring marks the first wrong pixel. Faults of fewer than one pixel in {RARE} are drawn larger."
+        ),
+        zoom_side: ZOOM_SIDE,
+        seed: report.environment.seed.map(|seed| seed.to_string()),
+        evidence: Evidence::ALL.iter().map(|kind| (kind.word(), rests_on(report, *kind))).collect(),
+        columns: columns(report),
+        scenes: scenes
+            .map(|(k, scene)| SceneView::new(k + 1, scene, pictures.get(k).unwrap_or(&none)))
+            .collect(),
+    };
+    page.render()
+}
+
+impl<'a> Page<'a> {
+    /// The view of a subject by name, for the table of scenes by subjects.
+    fn cell<'b>(&self, scene: &'b SceneView<'a>, subject: &str) -> Option<&'b super::view::SubjectView<'a>> {
+        scene.subjects.iter().find(|view| view.data.name == subject)
+    }
+}
+
+/// How often each verdict was given, zeros included.
+fn tally(report: &Report) -> Vec<(Badge, usize)> {
+    let given = |verdict| {
+        report.scenes.iter().flat_map(|scene| &scene.subjects).filter(|s| s.verdict == verdict).count()
+    };
+    VERDICTS.map(|verdict| (Badge::from(verdict), given(verdict))).to_vec()
+}
+
+fn rests_on(report: &Report, kind: Evidence) -> usize {
+    report.claims.iter().filter(|claim| claim.evidence == kind).count()
+}
+
+/// The names of all subjects, each once, in the order of their first scene.
+fn columns(report: &Report) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for subject in report.scenes.iter().flat_map(|scene| &scene.subjects) {
+        if !names.contains(&subject.name.as_str()) {
+            names.push(&subject.name);
+        }
+    }
+    names
+}

@@ -1,0 +1,192 @@
+//! One frame judged: the truth is rendered, then each subject, each is compared and pictured, and what was found
+//! becomes a [`SceneReport`].
+//!
+//! In: a scene, a camera, subjects. Out: data for the report and its pictures. A subject that gives no picture
+//! is reported as not judged; only a truth that cannot be had is an error.
+
+use crate::judge::judge;
+use crate::picture::PictureError;
+use crate::report::{Counter, Judge, ScenePictures, SceneReport, SubjectReport};
+use crate::subject::{Naive, Promise, Rounding, Subject, SubjectError};
+use crate::verdict::{Comparison, Verdict};
+use contract::{Camera, Image, MISS, Scene};
+use reference::{Arithmetic, Ray, RenderError, Tracer, Undecided};
+use std::time::Instant;
+use thiserror::Error;
+
+/// What is rendered, and what the report says of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a> {
+    /// The scene's name.
+    pub name: &'a str,
+    /// What it is.
+    pub description: &'a str,
+    /// Where it comes from.
+    pub provenance: &'a str,
+    /// This frame's spheres.
+    pub scene: &'a Scene,
+    /// The camera.
+    pub camera: &'a Camera,
+    /// This frame, from 0, and how many there are.
+    pub frame: [usize; 2],
+    /// What its reader had to say.
+    pub warnings: &'a [String],
+}
+
+/// Why a frame could not be judged at all.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// There is no truth to judge by.
+    #[error("no truth to judge by: {0}")]
+    Truth(#[from] RenderError),
+    /// A picture for the report failed.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+}
+
+/// Called before each rendering with its name and its rows; the closure it gives is called once a row.
+pub type Progress<'a> = &'a dyn Fn(&str, u32) -> Box<dyn Fn() + Sync>;
+
+/// Renders the truth and every subject, and judges.
+///
+/// # Errors
+/// [`RunError`] if the truth cannot be had or a picture cannot be encoded.
+pub fn run(
+    frame: &Frame<'_>,
+    subjects: &[&dyn Subject],
+    threads: usize,
+    progress: Progress<'_>,
+) -> Result<(SceneReport, ScenePictures), RunError> {
+    let Frame { scene, camera, .. } = *frame;
+    let rows = camera.size().height();
+    let tick = progress("exact", rows);
+    let truth = Tracer::new(Arithmetic::Exact).threads(threads).render_with(scene, camera, &*tick)?;
+    let hits = truth.image.ids.iter().filter(|&&id| id != MISS).count() as u64;
+    let witness = Judge { name: "reference, exact".into(), counters: counters(camera, truth.undecided) };
+    let truth = truth.image;
+    let mut pictures = ScenePictures::new(&truth)?;
+    let mut reports = Vec::new();
+    let mut naive = NaivePictures::default();
+    for subject in subjects {
+        let tick = progress(subject.name(), rows);
+        let start = Instant::now();
+        let rendered = subject.render(scene, camera, threads, &*tick);
+        let seconds = start.elapsed().as_secs_f64();
+        let mut report = blank(*subject);
+        match rendered {
+            Ok(image) => {
+                let twin = naive.for_promise(subject.promise(), frame, threads, progress);
+                let verdict = judge(scene, camera, &truth, &image, subject.promise(), twin);
+                report.seconds = Some(seconds);
+                report.rays_per_second = Some(camera.size().pixels() as f64 / seconds);
+                report.first_wrong =
+                    verdict.comparison.as_ref().and_then(|c| account(camera, &truth, &image, c));
+                (report.verdict, report.because) = (verdict.verdict, verdict.because);
+                report.comparison = verdict.comparison;
+                match report.comparison {
+                    Some(_) => pictures.add(&truth, &image)?,
+                    None => pictures.skip(),
+                }
+                naive.keep(subject.promise(), subject.name(), image);
+            }
+            Err(error) => {
+                report.because = format!("gave no picture: {error}");
+                pictures.skip();
+            }
+        }
+        reports.push(report);
+    }
+    let report = SceneReport {
+        name: frame.name.into(),
+        description: frame.description.into(),
+        provenance: frame.provenance.into(),
+        spheres: scene.spheres().len(),
+        frame: frame.frame[0],
+        frames: frame.frame[1],
+        width: camera.size().width(),
+        height: rows,
+        camera: camera.into(),
+        warnings: frame.warnings.to_vec(),
+        judge: witness,
+        hits,
+        picture: None,
+        subjects: reports,
+    };
+    Ok((report, pictures))
+}
+
+fn counters(camera: &Camera, undecided: Undecided) -> Vec<Counter> {
+    let counter = |name: &str, value: u64| Counter { name: name.into(), value };
+    vec![
+        counter("rays", camera.size().pixels() as u64),
+        counter("hits that integers decided", undecided.hits),
+        counter("orders of two roots that integers decided", undecided.orders),
+        counter("roundings of t that integers decided", undecided.roundings),
+    ]
+}
+
+fn blank(subject: &dyn Subject) -> SubjectReport {
+    SubjectReport {
+        name: subject.name().into(),
+        description: subject.description().into(),
+        promise: subject.promise().words(),
+        verdict: Verdict::NotJudged,
+        because: String::new(),
+        comparison: None,
+        seconds: None,
+        rays_per_second: None,
+        picture: None,
+        first_wrong: None,
+    }
+}
+
+/// The naive pictures a promise of equality is held against: kept when they were subjects, else rendered.
+#[derive(Default)]
+struct NaivePictures(Vec<(Rounding, Image)>);
+
+impl NaivePictures {
+    fn keep(&mut self, promise: Promise, name: &str, image: Image) {
+        if let Promise::Rounded(rounding) = promise
+            && Naive(rounding).name() == name
+        {
+            self.0.push((rounding, image));
+        }
+    }
+
+    fn for_promise(
+        &mut self,
+        promise: Promise,
+        frame: &Frame<'_>,
+        threads: usize,
+        progress: Progress<'_>,
+    ) -> Option<&Image> {
+        let Promise::EqualToNaive(rounding) = promise else { return None };
+        if !self.0.iter().any(|(kept, _)| *kept == rounding) {
+            let twin = Naive(rounding);
+            let tick = progress(twin.name(), frame.camera.size().height());
+            let image: Result<Image, SubjectError> = twin.render(frame.scene, frame.camera, threads, &*tick);
+            self.0.push((rounding, image.ok()?));
+        }
+        self.0.iter().find(|(kept, _)| *kept == rounding).map(|(_, image)| image)
+    }
+}
+
+/// The first wrong pixel in full: its ray, and both answers, in decimal and in bits.
+fn account(camera: &Camera, truth: &Image, subject: &Image, comparison: &Comparison) -> Option<String> {
+    let [x, y] = comparison.first_wrong?;
+    let i = y as usize * truth.size.width() as usize + x as usize;
+    let ray = Ray::of_pixel(camera, x, y);
+    let number = |x: f32| format!("{x:?} (0x{:08x})", x.to_bits());
+    let vector = |v: [f32; 3]| v.map(number).join(", ");
+    let answer = |image: &Image| match image.ids[i] {
+        MISS => "a miss".into(),
+        id => format!("sphere {id} at t = {}, colour {:?}", number(image.t[i]), &image.rgba[i][..3]),
+    };
+    Some(format!(
+        "pixel ({x}, {y}): eye {}; direction {}; truth: {}; subject: {}",
+        vector(ray.eye),
+        vector(ray.dir),
+        answer(truth),
+        answer(subject),
+    ))
+}
