@@ -10,7 +10,7 @@ use optimized::seen::Seen;
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
 use verify::seed::{count, generator, seed};
-use verify::visible::{Checked, hits_are_visible, listing_is_complete};
+use verify::visible::{Checked, hits_are_visible, listing_is_complete, rays_are_walked};
 
 const VOXELIZERS: [Voxelizer; 4] =
     [Voxelizer::EightCorners, Voxelizer::BoxRange, Voxelizer::Overlap, Voxelizer::ByCenter];
@@ -93,6 +93,9 @@ fn check(plan: Plan, seed: u64, i: u64) -> Checked {
         let (scene, seen) = seen(plan, &spheres, &camera);
         let hits = hits_are_visible(&seen, &scene, &camera);
         checked = checked + hits.unwrap_or_else(|wrong| panic!("{wrong}; scene {i} of CGT_SEED={seed}"));
+        let walked = rays_are_walked(&seen, &camera, &mut rng);
+        let walked = walked.unwrap_or_else(|wrong| panic!("{wrong}; scene {i} of CGT_SEED={seed}"));
+        checked = checked + walked;
     }
     checked
 }
@@ -121,6 +124,7 @@ fn hits_are_visible_and_listings_complete() {
                 checked.hits > scenes * 10 && checked.overlapping > scenes * 5,
                 "too little was at stake: {checked:?}"
             );
+            assert!(checked.points > scenes * 10 && checked.balls > scenes * 10, "{checked:?}");
             assert!(checked.near_planes > scenes / 20, "hardly a point near a plane: {checked:?}");
             assert!(
                 form == Form::Perpendicular || checked.beyond_surface > scenes,

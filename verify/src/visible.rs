@@ -7,7 +7,7 @@
 use contract::{Camera, Scene, Sphere};
 use dashu_int::IBig;
 use optimized::camera::{BLOCK, Block, CameraLanes, middles};
-use optimized::cull::Planes;
+use optimized::cull::{self, Planes};
 use optimized::frustum::{Frustum, Slices};
 use optimized::grid::{Axis, Grid};
 use optimized::host::Scalar;
@@ -15,6 +15,7 @@ use optimized::machine::LANES;
 use optimized::plan::{Culling, Voxelizer};
 use optimized::seen::Seen;
 use optimized::{Form, margin};
+use rand::{Rng, RngExt};
 use reference::{Arithmetic, Ray, Tracer};
 
 /// How much was checked.
@@ -26,6 +27,10 @@ pub struct Checked {
     pub near_planes: u64,
     /// Of these, with a P outside the sphere by more than 2⁻²⁰ of its radius.
     pub beyond_surface: u64,
+    /// Points of rays, hit or not.
+    pub points: u64,
+    /// Balls held against the culling planes.
+    pub balls: u64,
     /// Cells held against balls.
     pub cells: u64,
     /// Of these, cells that hold a point of the ball.
@@ -40,6 +45,8 @@ impl std::ops::Add for Checked {
             hits: self.hits + other.hits,
             near_planes: self.near_planes + other.near_planes,
             beyond_surface: self.beyond_surface + other.beyond_surface,
+            points: self.points + other.points,
+            balls: self.balls + other.balls,
             cells: self.cells + other.cells,
             overlapping: self.overlapping + other.overlapping,
         }
@@ -52,7 +59,31 @@ impl std::ops::Add for Checked {
 /// A sentence that says which hit is not visible, and why.
 pub fn hits_are_visible(seen: &Seen, scene: &Scene, camera: &Camera) -> Result<Checked, String> {
     let mut checked = Checked::default();
-    let Some(grid) = &seen.grid else { return Ok(checked) };
+    for_each_ray(seen, camera, |packet| {
+        (0..).zip(scene.spheres()).try_for_each(|(id, sphere)| packet.check_hit(id, sphere, &mut checked))
+    })?;
+    Ok(checked)
+}
+
+/// What walk and culling promise of any point of a ray, whether a sphere is hit there or not: its cell is visited, and a
+/// ball that reaches it is kept. Points are taken where the ray crosses planes of the grid, a few f32 steps before and after,
+/// and balls whose surface goes through the point, but for the rounding of their radius upwards.
+///
+/// # Errors
+/// A sentence that says which point is missed.
+pub fn rays_are_walked(seen: &Seen, camera: &Camera, rng: &mut impl Rng) -> Result<Checked, String> {
+    let mut checked = Checked::default();
+    for_each_ray(seen, camera, |packet| packet.check_crossings(rng, &mut checked))?;
+    Ok(checked)
+}
+
+/// Each ray of a picture in its packet.
+fn for_each_ray(
+    seen: &Seen,
+    camera: &Camera,
+    mut check: impl FnMut(&Packet<'_>) -> Result<(), String>,
+) -> Result<(), String> {
+    let Some(grid) = &seen.grid else { return Ok(()) };
     let m = Scalar;
     let lanes = CameraLanes::new(m, camera);
     for y in (0..camera.size().height()).step_by(BLOCK as usize) {
@@ -60,26 +91,22 @@ pub fn hits_are_visible(seen: &Seen, scene: &Scene, camera: &Camera) -> Result<C
             let (xs, ys) = middles(m, camera, x, y);
             let block = lanes.block(m, xs, ys);
             // Rays without a common axis are packets of their own.
+            let single = |lane: usize| (Block::new(m, block.dir.map(|d| [d[lane]; LANES])), vec![lane]);
             let packets: Vec<(Block<Scalar>, Vec<usize>)> = match Frustum::of_block(m, &block) {
                 Some(_) => vec![(block, (0..LANES).collect())],
-                None => (0..LANES)
-                    .map(|lane| (Block::new(m, block.dir.map(|d| [d[lane]; LANES])), vec![lane]))
-                    .collect(),
+                None => (0..LANES).map(single).collect(),
             };
             for (packet, lanes) in packets {
                 let Some(frustum) = Frustum::of_block(m, &packet) else { continue };
                 let slices = frustum.slices(m, seen.eye, grid, seen.plan.margins);
                 for lane in lanes {
                     let ray = Ray { eye: seen.eye, dir: packet.dir.map(|d| d[lane]) };
-                    let packet = Packet { seen, grid, frustum: &frustum, slices: &slices, ray };
-                    for (id, sphere) in (0..).zip(scene.spheres()) {
-                        packet.check(id, sphere, &mut checked)?;
-                    }
+                    check(&Packet { seen, grid, frustum: &frustum, slices: &slices, ray })?;
                 }
             }
         }
     }
-    Ok(checked)
+    Ok(())
 }
 
 struct Packet<'a> {
@@ -91,7 +118,7 @@ struct Packet<'a> {
 }
 
 impl Packet<'_> {
-    fn check(&self, id: u32, sphere: &Sphere, checked: &mut Checked) -> Result<(), String> {
+    fn check_hit(&self, id: u32, sphere: &Sphere, checked: &mut Checked) -> Result<(), String> {
         let plan = &self.seen.plan;
         let form = match plan.form {
             Form::Textbook => Arithmetic::F32Textbook,
@@ -116,30 +143,74 @@ impl Packet<'_> {
         if !lists(self.grid, cell, id) {
             return say(&format!("cell {cell:?} holds the point and does not list the sphere"));
         }
-        let order = self.frustum.order;
-        let [i, j, k] = order.map(|axis| i32::try_from(cell[axis]).expect("small"));
-        let slice = self.frustum.slice_index(self.slices.count, i.unsigned_abs() as usize);
-        let [first, last] = [&self.slices.first, &self.slices.last];
-        let range = |side: usize| first[side][slice]..=last[side][slice];
-        if !range(0).contains(&j) || !range(1).contains(&k) {
-            return say(&format!(
-                "the walk does not come to cell {cell:?} in slice {slice}: {:?}, {:?}",
-                range(0),
-                range(1)
-            ));
-        }
-        if plan.culling == Culling::Planes {
-            let prepared = &self.seen.spheres[id as usize];
-            let center = self.frustum.along(prepared.f.map(|x| -x)).map(|x| [x; LANES]);
-            let planes = Planes::new(Scalar, self.frustum, plan.margins);
-            if planes.cull(Scalar, center, [prepared.cull_radius; LANES]) {
-                return say("culled");
-            }
+        self.visits(cell).or_else(|why| say(&why))?;
+        let prepared = &self.seen.spheres[id as usize];
+        if plan.culling == Culling::Planes && self.culls(prepared.f, prepared.cull_radius) {
+            return say("culled");
         }
         checked.hits += 1;
         checked.near_planes += u64::from((0..3).any(|i| point.near_plane(i, &self.grid.axes[i])));
         checked.beyond_surface +=
             u64::from(!point.within(sphere.center, sphere.radius * (1.0 + 1.0 / 1_048_576.0)));
+        Ok(())
+    }
+
+    /// Whether the walk comes to a cell.
+    fn visits(&self, cell: [usize; 3]) -> Result<(), String> {
+        let [i, j, k] = self.frustum.order.map(|axis| cell[axis]);
+        let slice = self.frustum.slice_index(self.slices.count, i);
+        let [first, last] = [&self.slices.first, &self.slices.last];
+        let range = |side: usize| first[side][slice]..=last[side][slice];
+        let within = |side: usize, x: usize| i32::try_from(x).is_ok_and(|x| range(side).contains(&x));
+        if within(0, j) && within(1, k) {
+            return Ok(());
+        }
+        Err(format!(
+            "the walk does not come to cell {cell:?} in slice {slice}: {:?}, {:?}",
+            range(0),
+            range(1)
+        ))
+    }
+
+    /// Whether culling drops a ball, given by eye − centre.
+    fn culls(&self, f: [f32; 3], radius: f32) -> bool {
+        let center = self.frustum.along(f.map(|x| -x)).map(|x| [x; LANES]);
+        Planes::new(Scalar, self.frustum, self.seen.plan.margins).cull(Scalar, center, [radius; LANES])
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "any t near the crossing will do")]
+    fn check_crossings(&self, rng: &mut impl Rng, checked: &mut Checked) -> Result<(), String> {
+        let ray = &self.ray;
+        for i in 0..3 {
+            let axis = &self.grid.axes[i];
+            let plane = axis.planes[rng.random_range(0..axis.planes.len())];
+            let crossing = (f64::from(plane) - f64::from(ray.eye[i])) / f64::from(ray.dir[i]);
+            let mut t = crossing as f32;
+            for _ in 0..rng.random_range(0..3) {
+                t = if rng.random() { t.next_up() } else { t.next_down() };
+            }
+            let point = Point::on(ray, if t.is_finite() && t > 0.0 { t } else { continue });
+            if !point.in_grid(self.grid) {
+                continue;
+            }
+            let say = |what: &str| Err(format!("{what}: t = {t:?}, {ray:?}, {}", self.seen.plan));
+            self.visits([0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &point.0[i])))
+                .or_else(|why| say(&why))?;
+            checked.points += 1;
+
+            // A ball beside the point, sideways on a minor axis, whose surface goes through it.
+            let side = self.frustum.order[rng.random_range(1..3)];
+            let distance = rng.random_range(-1.0f32..1.0) * 10f32.powi(rng.random_range(-6..2)) * t;
+            let near: [f32; 3] = std::array::from_fn(|i| ray.eye[i] + t * ray.dir[i]);
+            let center: [f32; 3] =
+                std::array::from_fn(|i| if i == side { near[i] + distance } else { near[i] });
+            let Some(radius) = point.distance_up(center) else { continue };
+            let f = [0, 1, 2].map(|i| ray.eye[i] - center[i]);
+            if self.culls(f, cull::radius(self.seen.plan.margins, f, radius)) {
+                return say(&format!("the ball at {center:?}, radius {radius:?}, is culled"));
+            }
+            checked.balls += 1;
+        }
         Ok(())
     }
 }
@@ -186,6 +257,29 @@ impl Point {
         let d = [0, 1, 2].map(|i| &self.0[i] - (integer(center[i]) << 149));
         let r = integer(radius) << 149;
         &d[0] * &d[0] + &d[1] * &d[1] + &d[2] * &d[2] <= &r * &r
+    }
+
+    fn in_grid(&self, grid: &Grid) -> bool {
+        (0..3).all(|i| {
+            let planes = &grid.axes[i].planes;
+            let at = |plane: f32| integer(plane) << 149;
+            at(planes[0]) <= self.0[i] && self.0[i] <= at(planes[planes.len() - 1])
+        })
+    }
+
+    /// The least f32 not below the distance of a point; `None` beyond f32.
+    #[allow(clippy::cast_possible_truncation, reason = "a start for the search")]
+    fn distance_up(&self, from: [f32; 3]) -> Option<f32> {
+        let d =
+            [0, 1, 2].map(|i| (&self.0[i] - (integer(from[i]) << 149)).to_f64().value() * 2f64.powi(-298));
+        let mut radius = d.iter().map(|x| x * x).sum::<f64>().sqrt() as f32;
+        while radius > 0.0 && self.within(from, radius) {
+            radius = radius.next_down();
+        }
+        while radius.is_finite() && !self.within(from, radius) {
+            radius = radius.next_up();
+        }
+        (radius.is_finite() && radius > 0.0).then_some(radius)
     }
 
     fn near_plane(&self, i: usize, axis: &Axis) -> bool {
