@@ -93,9 +93,18 @@ fn check(plan: Plan, seed: u64, i: u64) -> Checked {
         let (scene, seen) = seen(plan, &spheres, &camera);
         let hits = hits_are_visible(&seen, &scene, &camera);
         checked = checked + hits.unwrap_or_else(|wrong| panic!("{wrong}; scene {i} of CGT_SEED={seed}"));
-        let walked = rays_are_walked(&seen, &camera, &mut rng);
+        let walked = rays_are_walked(&seen, &scene, &camera, &mut rng);
         let walked = walked.unwrap_or_else(|wrong| panic!("{wrong}; scene {i} of CGT_SEED={seed}"));
         checked = checked + walked;
+    }
+    // Beams at the corners of cells, where walk and slices are closest to a mistake.
+    for _ in 0..6 {
+        let target = [0, 1, 2].map(|axis| planes[axis][rng.random_range(0..planes[axis].len())]);
+        let spread = size * 10f32.powi(rng.random_range(-9..-4));
+        let Some(camera) = beam(eye, target, spread, &mut rng) else { continue };
+        let (scene, seen) = seen(plan, &spheres, &camera);
+        let walked = rays_are_walked(&seen, &scene, &camera, &mut rng);
+        checked = checked + walked.unwrap_or_else(|wrong| panic!("{wrong}; scene {i} of CGT_SEED={seed}"));
     }
     checked
 }

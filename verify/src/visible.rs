@@ -14,6 +14,7 @@ use optimized::host::Scalar;
 use optimized::machine::LANES;
 use optimized::plan::{Culling, Voxelizer};
 use optimized::seen::Seen;
+use optimized::sphere::Prepared;
 use optimized::{Form, margin};
 use rand::{Rng, RngExt};
 use reference::{Arithmetic, Ray, Tracer};
@@ -59,7 +60,7 @@ impl std::ops::Add for Checked {
 /// A sentence that says which hit is not visible, and why.
 pub fn hits_are_visible(seen: &Seen, scene: &Scene, camera: &Camera) -> Result<Checked, String> {
     let mut checked = Checked::default();
-    for_each_ray(seen, camera, |packet| {
+    for_each_ray(seen, scene, camera, |packet| {
         (0..).zip(scene.spheres()).try_for_each(|(id, sphere)| packet.check_hit(id, sphere, &mut checked))
     })?;
     Ok(checked)
@@ -71,19 +72,28 @@ pub fn hits_are_visible(seen: &Seen, scene: &Scene, camera: &Camera) -> Result<C
 ///
 /// # Errors
 /// A sentence that says which point is missed.
-pub fn rays_are_walked(seen: &Seen, camera: &Camera, rng: &mut impl Rng) -> Result<Checked, String> {
+pub fn rays_are_walked(
+    seen: &Seen,
+    scene: &Scene,
+    camera: &Camera,
+    rng: &mut impl Rng,
+) -> Result<Checked, String> {
     let mut checked = Checked::default();
-    for_each_ray(seen, camera, |packet| packet.check_crossings(rng, &mut checked))?;
+    for_each_ray(seen, scene, camera, |packet| packet.check_crossings(rng, &mut checked))?;
     Ok(checked)
 }
 
 /// Each ray of a picture in its packet.
 fn for_each_ray(
     seen: &Seen,
+    scene: &Scene,
     camera: &Camera,
     mut check: impl FnMut(&Packet<'_>) -> Result<(), String>,
 ) -> Result<(), String> {
     let Some(grid) = &seen.grid else { return Ok(()) };
+    let reach =
+        |(p, s): (&Prepared, &Sphere)| margin::reach(seen.plan.margins, seen.plan.form, p.f, s.radius);
+    let farthest = seen.spheres.iter().zip(scene.spheres()).map(reach).fold(0.0, f32::max);
     let m = Scalar;
     let lanes = CameraLanes::new(m, camera);
     for y in (0..camera.size().height()).step_by(BLOCK as usize) {
@@ -101,7 +111,7 @@ fn for_each_ray(
                 let slices = frustum.slices(m, seen.eye, grid, seen.plan.margins);
                 for lane in lanes {
                     let ray = Ray { eye: seen.eye, dir: packet.dir.map(|d| d[lane]) };
-                    check(&Packet { seen, grid, frustum: &frustum, slices: &slices, ray })?;
+                    check(&Packet { seen, grid, frustum: &frustum, slices: &slices, ray, farthest })?;
                 }
             }
         }
@@ -115,6 +125,8 @@ struct Packet<'a> {
     frustum: &'a Frustum<Scalar>,
     slices: &'a Slices,
     ray: Ray,
+    /// The largest reach of any sphere.
+    farthest: f32,
 }
 
 impl Packet<'_> {
@@ -178,6 +190,27 @@ impl Packet<'_> {
         Planes::new(Scalar, self.frustum, self.seen.plan.margins).cull(Scalar, center, [radius; LANES])
     }
 
+    /// Where spheres are listed by centre: a centre as far from the point as any sphere reaches, on one axis.
+    fn check_center(&self, point: &Point, rng: &mut impl Rng) -> Result<(), String> {
+        if self.seen.plan.voxelizer != Voxelizer::ByCenter {
+            return Ok(());
+        }
+        let near = point.0.each_ref().map(to_f32);
+        let (i, outward) = (rng.random_range(0..3), rng.random::<bool>());
+        let mut center = near;
+        center[i] = if outward { near[i] + self.farthest } else { near[i] - self.farthest };
+        while !point.within(center, self.farthest) {
+            center[i] = if outward { center[i].next_down() } else { center[i].next_up() };
+        }
+        let planes = &self.grid.axes[i].planes;
+        if !(planes[0]..=planes[planes.len() - 1]).contains(&center[i]) {
+            return Ok(());
+        }
+        let cell = [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &(integer(center[i]) << 149)));
+        self.visits(cell)
+            .map_err(|why| format!("a sphere with its centre at {center:?} reaches the point; {why}"))
+    }
+
     #[allow(clippy::cast_possible_truncation, reason = "any t near the crossing will do")]
     fn check_crossings(&self, rng: &mut impl Rng, checked: &mut Checked) -> Result<(), String> {
         let ray = &self.ray;
@@ -185,7 +218,8 @@ impl Packet<'_> {
             let axis = &self.grid.axes[i];
             let plane = axis.planes[rng.random_range(0..axis.planes.len())];
             let crossing = (f64::from(plane) - f64::from(ray.eye[i])) / f64::from(ray.dir[i]);
-            let mut t = crossing as f32;
+            // A beam reaches what it is aimed at about t = 1.
+            let mut t = if rng.random() { 1.0 } else { crossing as f32 };
             for _ in 0..rng.random_range(0..3) {
                 t = if rng.random() { t.next_up() } else { t.next_down() };
             }
@@ -197,6 +231,7 @@ impl Packet<'_> {
             self.visits([0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &point.0[i])))
                 .or_else(|why| say(&why))?;
             checked.points += 1;
+            self.check_center(&point, rng).or_else(|why| say(&why))?;
 
             // A ball beside the point, sideways on a minor axis, whose surface goes through it.
             let side = self.frustum.order[rng.random_range(1..3)];
@@ -327,6 +362,16 @@ fn lists(grid: &Grid, cell: [usize; 3], id: u32) -> bool {
     let mut found = false;
     grid.for_each_id((0..3).map(|i| cell[i] * strides[i]).sum(), true, |listed| found |= listed == id);
     found
+}
+
+/// About x 2⁻²⁹⁸.
+fn to_f64(x: &IBig) -> f64 {
+    x.to_f64().value() * 2f64.powi(-298)
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "about")]
+fn to_f32(x: &IBig) -> f32 {
+    to_f64(x) as f32
 }
 
 /// A finite f32 times 2¹⁴⁹.
