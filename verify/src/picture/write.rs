@@ -88,11 +88,13 @@ pub fn check_folder(folder: &Path) -> Result<(), WriteError> {
     temporary(there).map(drop).map_err(refused)
 }
 
-/// The system's error without the name of the temporary file, which says nothing to a person.
+/// The system's error without the name of the temporary file, which `tempfile` adds and which says nothing to a
+/// person. It hands out the original only as text.
 fn bare(error: std::io::Error) -> std::io::Error {
-    let source = error.get_ref().and_then(|wrapped| wrapped.source());
-    let code = source.and_then(|e| e.downcast_ref::<std::io::Error>()).and_then(std::io::Error::raw_os_error);
-    code.map_or(error, std::io::Error::from_raw_os_error)
+    match error.to_string().split_once(" at path ") {
+        Some((said, _)) => std::io::Error::new(error.kind(), said),
+        None => error,
+    }
 }
 
 /// Temporary files are private unless told otherwise; a report is as readable as the umask lets it be.
