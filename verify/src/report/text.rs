@@ -14,7 +14,7 @@ pub const TEXT_WIDTH: usize = 100;
 /// Columns of the table: heading and the most it may take. With one space between them and two for the margin
 /// the whole is within [`TEXT_WIDTH`].
 const COLUMNS: [(&str, usize); 8] = [
-    ("scene", 17),
+    ("scene", 18),
     ("subject", 23),
     ("verdict", 14),
     ("ids", 7),
