@@ -53,6 +53,15 @@ fn assert_in_view(name: &str, camera: &Camera, animation: &Animation) {
     }
 }
 
+/// Pixels are squares: `du` and `dv` are equally long and at right angles.
+fn assert_square_and_straight(name: &str, camera: &Camera) {
+    let dot = |a: [f32; 3], b: [f32; 3]| (0..3).map(|i| f64::from(a[i]) * f64::from(b[i])).sum::<f64>();
+    let (du, dv) = (camera.du(), camera.dv());
+    let (width, height, lean) = (dot(du, du).sqrt(), dot(dv, dv).sqrt(), dot(du, dv));
+    assert!((width / height - 1.0).abs() < 1e-5, "{name}: pixels of {width} x {height}");
+    assert!(lean.abs() < 1e-5 * width * height, "{name}: {du:?} and {dv:?} lean by {lean}");
+}
+
 /// Another way to see it: the picture point of the centre, and those of eight points of the silhouette circle.
 fn tangent_cone_in_picture(camera: &Camera, sphere: &Sphere) -> bool {
     let v = |x: [f32; 3]| x.map(f64::from);
@@ -97,6 +106,7 @@ fn every_scene_is_in_view_at_every_size() {
             let name = format!("{name} at {size:?}");
             let camera = framing(size).camera(&animation).unwrap_or_else(|e| panic!("{name}: {e}"));
             assert_in_view(&name, &camera, &animation);
+            assert_square_and_straight(&name, &camera);
         }
     }
 }

@@ -2,76 +2,25 @@
 //! in 4x4 blocks from left to right (the paper's SPUs and their blocks of scanlines).
 
 use crate::camera::{BLOCK, Block, CameraLanes, middles};
-use crate::frustum::Frustum;
-use crate::grid::{Bounds, Grid};
+use crate::event::{Events, RenderError};
 use crate::machine::{LANES, Machine};
-use crate::margin;
+use crate::plan::{Plan, Sharing};
+use crate::seen::{Counts, Seen};
 use crate::shade::{Surface, shade};
-use crate::sphere::{Form, NONE, Nearest, Prepared};
-use crate::walk::walk;
-use contract::{Camera, Image, Scene, SizeError};
+use crate::sphere::{NONE, Nearest};
+use contract::{Camera, Image, Scene};
 use std::sync::Mutex;
 
-/// A frame's scene as seen from its camera: what all workers read.
+/// A picture and how it came about.
 #[derive(Clone, Debug)]
-pub struct Seen {
-    /// The eye.
-    pub eye: [f32; 3],
-    /// The arithmetic.
-    pub form: Form,
-    /// The spheres relative to the eye, by id.
-    pub spheres: Vec<Prepared>,
-    /// The grid; `None` if there is nothing to hit or the scene is out of range ([`margin::in_range`]), when
-    /// every sphere is met by every ray.
-    pub grid: Option<Grid>,
-}
-
-impl Seen {
-    /// Prepares spheres and builds the grid.
-    #[must_use]
-    pub fn new<M: Machine>(m: M, form: Form, scene: &Scene, camera: &Camera) -> Self {
-        let eye = camera.eye();
-        let spheres: Vec<Prepared> = scene.spheres().iter().map(|s| Prepared::new(eye, s)).collect();
-        let bounds = |(p, s): (&Prepared, &contract::Sphere)| {
-            Bounds::of_ball(s.center, margin::reach(form, p.f, s.radius))
-        };
-        let grid = margin::in_range(scene.spheres(), camera).then(|| {
-            let bounds: Vec<Bounds> = spheres.iter().zip(scene.spheres()).map(bounds).collect();
-            Grid::build(m, &bounds)
-        });
-        Self { eye, form, spheres, grid: grid.flatten() }
-    }
-
-    /// The nearest hit of each ray of a block. Rays without a common major axis go one by one.
-    #[inline(always)]
-    fn trace<M: Machine>(&self, m: M, block: &Block<M>) -> Nearest<M> {
-        let Some(grid) = &self.grid else {
-            let all = self.spheres.iter().zip(0..);
-            return all.fold(
-                Nearest::none(m),
-                #[inline(always)]
-                |nearest, (sphere, id)| nearest.meet(m, self.form, block, sphere, id),
-            );
-        };
-        match Frustum::of_block(m, block) {
-            Some(frustum) => walk(m, self, grid, block, &frustum),
-            None => self.trace_singly(m, grid, block),
-        }
-    }
-
-    #[inline(never)]
-    fn trace_singly<M: Machine>(&self, m: M, grid: &Grid, block: &Block<M>) -> Nearest<M> {
-        let (mut t, mut id) = ([f32::INFINITY; LANES], [NONE; LANES]);
-        let dir = block.dir.map(|d| m.to_array(d));
-        for lane in 0..LANES {
-            let ray = Block::new(m, dir.map(|d| m.splat(d[lane])));
-            // A direction of zero has no major axis, and hits nothing.
-            let Some(frustum) = Frustum::of_block(m, &ray) else { continue };
-            let nearest = walk(m, self, grid, &ray, &frustum);
-            (t[lane], id[lane]) = (m.to_array(nearest.t)[lane], m.to_array_i(nearest.id)[lane]);
-        }
-        Nearest { t: m.lanes(t), id: m.lanes_i(id) }
-    }
+pub struct Rendering {
+    /// The picture.
+    pub image: Image,
+    /// What the scene did that the plan's choices do not allow, in the order in which it was found. If there is any, the
+    /// plan's [`OnEvent`](crate::plan::OnEvent) says what followed.
+    pub events: Events,
+    /// What tracing cost.
+    pub counts: Counts,
 }
 
 /// A stripe of the image under work: its rows of ids, t and colours.
@@ -85,42 +34,63 @@ struct Stripe<'a> {
 /// Renders a frame with so many workers; the picture does not depend on them.
 ///
 /// # Errors
-/// [`SizeError::NoMemory`] if the image cannot be had.
+/// [`RenderError`] if the image cannot be had or the plan refuses what the scene does.
 ///
 /// # Panics
 /// If a worker panicked.
 pub fn render<M: Machine + Send + Sync>(
     m: M,
-    form: Form,
+    plan: Plan,
     scene: &Scene,
     camera: &Camera,
     workers: usize,
-) -> Result<Image, SizeError> {
+) -> Result<Rendering, RenderError> {
     let mut image = Image::new(camera.size(), scene.background())?;
-    let seen = Seen::new(m, form, scene, camera);
+    let mut events = Events::default();
+    let seen = m.within(|| Seen::new(m, plan, scene, camera, &mut events))?;
     let rows = camera.size().width() as usize * BLOCK as usize;
     let layers = image.ids.chunks_mut(rows).zip(image.t.chunks_mut(rows)).zip(image.rgba.chunks_mut(rows));
     let stripes = (0..).step_by(BLOCK as usize).zip(layers);
     let stripes = Mutex::new(stripes.map(|(y, ((ids, t), rgba))| Stripe { y, ids, t, rgba }));
     let next = || stripes.lock().expect("no worker panics while it holds the list").next();
-    std::thread::scope(|scope| {
-        for _ in 0..workers.max(1) {
-            scope.spawn(|| {
-                while let Some(mut stripe) = next() {
-                    fill(m, &seen, scene, camera, &mut stripe);
-                }
-            });
+    let work = || {
+        let mirrored = match plan.sharing {
+            Sharing::Shared => None,
+            // The same grid with the same events once more; an error would have come the first time.
+            Sharing::Mirrored => m.within(|| Seen::new(m, plan, scene, camera, &mut Events::default())).ok(),
+        };
+        let seen = mirrored.as_ref().unwrap_or(&seen);
+        let mut counts = Counts::default();
+        while let Some(mut stripe) = next() {
+            m.within(
+                #[inline(always)]
+                || fill(m, seen, scene, camera, &mut stripe, &mut counts),
+            );
         }
+        counts
+    };
+    let counts = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..workers.max(1)).map(|_| scope.spawn(work)).collect();
+        let counts = workers.into_iter().map(|worker| worker.join().expect("a worker panicked"));
+        counts.fold(Counts::default(), |sum, counts| sum + counts)
     });
-    Ok(image)
+    Ok(Rendering { image, events, counts })
 }
 
-fn fill<M: Machine>(m: M, seen: &Seen, scene: &Scene, camera: &Camera, stripe: &mut Stripe<'_>) {
+#[inline(always)]
+fn fill<M: Machine>(
+    m: M,
+    seen: &Seen,
+    scene: &Scene,
+    camera: &Camera,
+    stripe: &mut Stripe<'_>,
+    counts: &mut Counts,
+) {
     let lanes = CameraLanes::new(m, camera);
     for x in (0..camera.size().width()).step_by(BLOCK as usize) {
         let (xs, ys) = middles(m, camera, x, stripe.y);
         let block = lanes.block(m, xs, ys);
-        let nearest = seen.trace(m, &block);
+        let nearest = seen.trace(m, &block, counts);
         write(m, scene, seen, &block, &nearest, x as usize, camera.size().width() as usize, stripe);
     }
 }

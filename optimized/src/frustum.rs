@@ -9,16 +9,23 @@
 //! extreme at one end, the packet is in the slice between
 //! eye_Y + min(lo A0, lo A1) and eye_Y + max(hi A0, hi A1). Rounding: A0, A1 and the slopes have relative error
 //! u = 2⁻²⁴, product and sum round once each, in all at most 4u (|eye_Y| + A1) as the slope is at most 1; we take
-//! off and put on `pad` = 16u (|eye_Y| + A_max). So if a point P of a ray lies in slice i (grid's module text), its Y
-//! lies between the two, and by monotony of the cell map its cell is in the rectangle. Each slice is evaluated
-//! afresh, sixteen at a time, one a lane; nothing is summed up from slice to slice.
+//! off and put on 16u (|eye_Y| + A_max), A_max the largest distance of any plane. So if a point P of a ray lies in
+//! slice i (grid's module text), its Y lies between the two, and by monotony of the cell map its cell is in the
+//! rectangle. Each slice is evaluated afresh, sixteen at a time, one a lane; nothing is summed up from slice to slice.
+//!
+//! Where spheres are listed by centre, the cell of P need not list them, but that of the centre does, which is within
+//! w = [`Grid::widen`] of P on each axis. So a slice takes in what the packet passes from A0 − w to A1 + w, and its
+//! rectangle reaches w farther on each side; w counts into A_max.
 
 use crate::camera::Block;
-use crate::grid::Grid;
+use crate::grid::{Grid, MAX_CELLS};
 use crate::machine::{LANES, Machine, Site};
+use crate::plan::Margins;
 
 /// 16 units of f32 rounding.
 const PAD: f32 = 16.0 / (1u32 << 24) as f32;
+
+const _: () = assert!(MAX_CELLS.is_multiple_of(LANES));
 
 /// Rays that move most along one axis, in one sense.
 #[derive(Clone, Copy)]
@@ -29,18 +36,30 @@ pub struct Frustum<M: Machine> {
     pub forward: bool,
     /// |d_X| of each ray.
     pub speed: M::F,
-    /// Lowest and highest slope of the second and the third axis.
+    /// Lowest and highest slope of the second and the third axis, in every lane.
     slopes: [[M::F; 2]; 2],
 }
 
-/// The cells that sixteen slices have in common with a packet: first and last on the second and third axis.
-/// Where there are none, the last is below the first.
+/// The slices of a grid in the order in which a packet meets them, and what of each it may touch.
 #[derive(Clone, Copy, Debug)]
-pub struct Rectangles {
-    /// First cells on the second and third axis.
-    pub first: [[i32; LANES]; 2],
-    /// Last cells.
-    pub last: [[i32; LANES]; 2],
+pub struct Slices {
+    /// How many there are.
+    pub count: usize,
+    /// First cell on the second and third axis.
+    pub first: [[i32; MAX_CELLS]; 2],
+    /// Last cell; below the first if the packet touches nothing of the slice.
+    pub last: [[i32; MAX_CELLS]; 2],
+    /// Distance of each slice's far plane from the eye, along the major axis.
+    pub far: [f32; MAX_CELLS],
+}
+
+impl Slices {
+    /// Whether the packet touches nothing of a slice.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_empty(&self, slice: usize) -> bool {
+        self.last[0][slice] < self.first[0][slice] || self.last[1][slice] < self.first[1][slice]
+    }
 }
 
 impl<M: Machine> Frustum<M> {
@@ -59,52 +78,113 @@ impl<M: Machine> Frustum<M> {
             |i| block.dir[i],
         );
         let speed = if forward { x } else { m.neg(x) };
-        let zero = m.splat(0.0);
-        let steeper = |d: M::F| m.lt(speed, m.max(d, m.neg(d)));
-        let stray = m.or(m.le(speed, zero), m.or(steeper(y), steeper(z)));
+        let stray = m.or(m.le(speed, m.splat(0.0)), m.or(steeper(m, y, speed), steeper(m, z, speed)));
         if m.any(stray, Site::Incoherent) {
             return None;
         }
-        let range = |d: M::F| {
-            let slope = m.div(d, speed);
-            [m.smallest(slope), m.largest(slope)]
-        };
-        Some(Self { order, forward, speed, slopes: [range(y), range(z)] })
+        Some(Self { order, forward, speed, slopes: [range(m, y, speed), range(m, z, speed)] })
     }
 
-    /// Kernel: the rectangles of the slices whose distances from the eye reach from `near` to `far`, one slice
-    /// a lane. A slice behind the eye has `far < 0`.
+    /// Rim: the slopes as plain numbers.
     #[inline(always)]
-    pub fn rectangles(
+    pub fn slope_arrays(&self, m: M) -> [[f32; 2]; 2] {
+        self.slopes.map(
+            #[inline(always)]
+            |side| {
+                side.map(
+                    #[inline(always)]
+                    |slope| m.to_array(slope)[0],
+                )
+            },
+        )
+    }
+
+    /// A vector's components along the major axis, in the rays' sense, and the other two.
+    #[inline(always)]
+    #[must_use]
+    pub fn along(&self, v: [f32; 3]) -> [f32; 3] {
+        let [x, y, z] = self.order.map(|i| v[i]);
+        [if self.forward { x } else { -x }, y, z]
+    }
+
+    /// The slices in the order in which the packet meets them.
+    #[inline(always)]
+    pub fn slices(&self, m: M, eye: [f32; 3], grid: &Grid, margins: Margins) -> Slices {
+        let axis = &grid.axes[self.order[0]];
+        let count = axis.n.unsigned_abs() as usize;
+        let mut slices =
+            Slices { count, first: [[0; MAX_CELLS]; 2], last: [[-1; MAX_CELLS]; 2], far: [-1.0; MAX_CELLS] };
+        let mut near = [0.0; MAX_CELLS];
+        let position = eye[self.order[0]];
+        for (s, (near, far)) in near.iter_mut().zip(&mut slices.far).take(count).enumerate() {
+            let index = self.slice_index(count, s);
+            let (lower, upper) = (axis.planes[index], axis.planes[index + 1]);
+            let distances = [lower - position, upper - position];
+            [*near, *far] = if self.forward { distances } else { [-distances[1], -distances[0]] };
+        }
+        let farthest = slices.far[count - 1].abs() + grid.widen;
+        for start in (0..count).step_by(LANES) {
+            let part = start..start + LANES;
+            let lanes = |values: &[f32; MAX_CELLS]| m.lanes(std::array::from_fn(|lane| values[start + lane]));
+            let (near, far) = (lanes(&near), lanes(&slices.far));
+            for side in 0..2 {
+                let eye = eye[self.order[side + 1]];
+                let pad = if margins == Margins::Derived { PAD * (eye.abs() + farthest) } else { 0.0 };
+                let [first, last] = self.rectangle(m, side, eye, grid, near, far, pad);
+                slices.first[side][part.clone()].copy_from_slice(&m.to_array_i(first));
+                slices.last[side][part.clone()].copy_from_slice(&m.to_array_i(last));
+            }
+        }
+        slices
+    }
+
+    /// The index in the grid of the slice that is met as number `s` of `count`.
+    #[inline(always)]
+    #[must_use]
+    pub fn slice_index(&self, count: usize, s: usize) -> usize {
+        if self.forward { s } else { count - 1 - s }
+    }
+
+    /// Kernel: first and last cell on one of the minor axes in slices that reach from `near` to `far`, one slice a lane.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments, reason = "a kernel takes values")]
+    fn rectangle(
         &self,
         m: M,
-        eye: [f32; 3],
+        side: usize,
+        eye: f32,
         grid: &Grid,
         near: M::F,
         far: M::F,
-        max: f32,
-    ) -> Rectangles {
-        let zero = m.splat(0.0);
+        pad: f32,
+    ) -> [M::I; 2] {
+        let axis = &grid.axes[self.order[side + 1]];
+        let (zero, widen, eye) = (m.splat(0.0), m.splat(grid.widen), m.splat(eye));
+        let (near, far) = (m.sub(near, widen), m.add(far, widen));
         let behind = m.lt(far, zero);
         let near = m.max(near, zero);
-        let mut rectangles = Rectangles { first: [[0; LANES]; 2], last: [[0; LANES]; 2] };
-        for side in 0..2 {
-            let axis = &grid.axes[self.order[side + 1]];
-            let eye = eye[self.order[side + 1]];
-            let [lo, hi] = self.slopes[side];
-            let pad = m.splat(PAD * (eye.abs() + max));
-            let low = m.min(m.mul(lo, near), m.mul(lo, far));
-            let high = m.max(m.mul(hi, near), m.mul(hi, far));
-            let low = m.sub(m.add(m.splat(eye), low), pad);
-            let high = m.add(m.add(m.splat(eye), high), pad);
-            let (start, end) = (m.splat(axis.planes[0]), m.splat(axis.planes[axis.planes.len() - 1]));
-            let outside = m.or(m.lt(high, start), m.lt(end, low));
-            let last = m.select_i(m.or(behind, outside), m.splat_i(-1), axis.cell(m, high));
-            rectangles.first[side] = m.to_array_i(axis.cell(m, low));
-            rectangles.last[side] = m.to_array_i(last);
-        }
-        rectangles
+        let [lo, hi] = self.slopes[side];
+        let border = m.add(widen, m.splat(pad));
+        let low = m.sub(m.add(eye, m.min(m.mul(lo, near), m.mul(lo, far))), border);
+        let high = m.add(m.add(eye, m.max(m.mul(hi, near), m.mul(hi, far))), border);
+        let (start, end) = (m.splat(axis.planes[0]), m.splat(axis.planes[axis.planes.len() - 1]));
+        let outside = m.or(m.lt(high, start), m.lt(end, low));
+        let last = m.select_i(m.or(behind, outside), m.splat_i(-1), axis.cell(m, high));
+        [axis.cell(m, low), last]
     }
+}
+
+/// Where a ray moves faster along d than along the major axis.
+#[inline(always)]
+fn steeper<M: Machine>(m: M, d: M::F, speed: M::F) -> M::B {
+    m.lt(speed, m.max(d, m.neg(d)))
+}
+
+/// Lowest and highest slope of all rays.
+#[inline(always)]
+fn range<M: Machine>(m: M, d: M::F, speed: M::F) -> [M::F; 2] {
+    let slope = m.div(d, speed);
+    [m.smallest(slope), m.largest(slope)]
 }
 
 /// The axis of largest magnitude, the first of equals.

@@ -6,16 +6,26 @@
 //! is said to lie in cell i if planes[i] <= x < planes[i + 1]; for f32 that agrees with the map, and it makes
 //! statements about real points exact, though the map rounds.
 //!
-//! The voxelizer lists a sphere in all cells that its box overlaps. The box is the centre minus and plus the
-//! reach of [`crate::margin`], rounded outward; a real point P of the ball has lo <= P <= hi on each
-//! axis, so by monotony its cell lies between those of lo and hi, and lists the sphere.
+//! A voxelizer lists a sphere in cells of its box: the centre minus and plus the reach of [`crate::margin`],
+//! rounded outward. A real point P of the ball has lo <= P <= hi on each axis, so by monotony its cell lies
+//! between those of lo and hi; a voxelizer is *complete* if it lists the sphere there.
+//!
+//! What a cell is, a queue or a piece of one list (Lagae and Dutré 2008), is the plan's choice. The ids of a cell come in
+//! no order that anything may rely on.
 
+use crate::event::{Event, Events, RenderError};
 use crate::machine::{LANES, Machine};
+use crate::plan::{Cells, OnEvent, Plan, Resolution, Voxelizer};
+use crate::queue::{MAX_IDS, Queue, Queues};
+use crate::voxelize::CellBox;
 
 /// The most cells on an axis.
-pub const MAX_CELLS: i32 = 64;
+pub const MAX_CELLS: usize = 64;
 /// Cells a sphere should have for itself: λ of n = d ∛(λ N / V) (Wald et al. 2006 use 3 to 5).
 const DENSITY: f64 = 4.0;
+
+/// 1 + 2⁻²⁰: what is added to the largest reach covers the roundings of the distances it is compared with.
+const WIDER: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
 
 /// One axis of the grid.
 #[derive(Clone, Debug)]
@@ -28,41 +38,62 @@ pub struct Axis {
     pub planes: Vec<f32>,
 }
 
-/// A box around what a sphere may be hit in, rounded outward.
+/// A ball in which a sphere may be hit, with a box around it.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// Lower corner.
     pub lo: [f32; 3],
     /// Upper corner.
     pub hi: [f32; 3],
+    /// Centre.
+    pub center: [f32; 3],
+    /// How far from the centre.
+    pub radius: f32,
 }
 
-/// Cells with the ids of their spheres, ascending, as one list with offsets (Lagae and Dutré 2008).
+/// Cells and what they hold.
 #[derive(Clone, Debug)]
 pub struct Grid {
     /// The three axes.
     pub axes: [Axis; 3],
-    offsets: Vec<u32>,
-    ids: Vec<u32>,
+    /// How far from the packet's rays a cell may be and yet list a sphere that they hit: 0, or the largest reach if
+    /// spheres are listed by centre.
+    pub widen: f32,
+    storage: Storage,
+}
+
+#[derive(Clone, Debug)]
+enum Storage {
+    Queues(Vec<Queue>),
+    Lists { offsets: Vec<u32>, ids: Vec<u32> },
 }
 
 impl Bounds {
-    /// The box of a ball.
+    /// A ball and the box around it, rounded outward.
     #[must_use]
-    pub fn of_ball(center: [f32; 3], radius: f32) -> Self {
-        Self { lo: center.map(|c| (c - radius).next_down()), hi: center.map(|c| (c + radius).next_up()) }
+    pub fn outward(center: [f32; 3], radius: f32) -> Self {
+        Self {
+            lo: center.map(|c| (c - radius).next_down()),
+            hi: center.map(|c| (c + radius).next_up()),
+            center,
+            radius,
+        }
     }
 
-    fn join(self, other: &Self) -> Self {
-        Self {
-            lo: [0, 1, 2].map(|i| self.lo[i].min(other.lo[i])),
-            hi: [0, 1, 2].map(|i| self.hi[i].max(other.hi[i])),
-        }
+    /// A ball and the box around it, rounded to nearest as the paper would.
+    #[must_use]
+    pub fn nearest(center: [f32; 3], radius: f32) -> Self {
+        Self { lo: center.map(|c| c - radius), hi: center.map(|c| c + radius), center, radius }
+    }
+
+    /// The centre alone, with the radius it had.
+    fn point(self) -> Self {
+        Self { lo: self.center, hi: self.center, ..self }
     }
 }
 
 impl Axis {
-    /// Divides lo..hi into n cells.
+    /// Divides lo..hi into n cells, 1 to [`MAX_CELLS`].
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "n is small")]
     pub fn new<M: Machine>(m: M, lo: f32, hi: f32, n: i32) -> Self {
@@ -113,109 +144,215 @@ fn unrank(rank: i64) -> f32 {
 }
 
 impl Grid {
-    /// A grid over the boxes of all spheres. `None` if there is no sphere.
-    #[must_use]
-    pub fn build<M: Machine>(m: M, bounds: &[Bounds]) -> Option<Self> {
-        let whole = bounds.iter().skip(1).fold(*bounds.first()?, Bounds::join);
-        let mut n = resolution(&whole, bounds.len());
+    /// A grid over the balls of all spheres, of which there is at least one, as the plan has it. Events are added to the
+    /// list; the plan's fall-backs are taken.
+    ///
+    /// # Errors
+    /// [`RenderError::Refused`] if the plan refuses an event, [`RenderError::Resolution`] for one that is out of range.
+    pub fn build<M: Machine>(
+        m: M,
+        plan: &Plan,
+        balls: &[Bounds],
+        events: &mut Events,
+    ) -> Result<Self, RenderError> {
+        let mut plan = *plan;
+        let by_center = plan.voxelizer == Voxelizer::ByCenter;
+        let boxes: Vec<Bounds> =
+            balls.iter().map(|ball| if by_center { ball.point() } else { *ball }).collect();
+        let widen =
+            if by_center { WIDER * balls.iter().map(|ball| ball.radius).fold(0.0, f32::max) } else { 0.0 };
+        let whole = whole(&boxes);
+        let mut n = resolution(&plan, &whole, balls)?;
         loop {
-            let axes = [0, 1, 2].map(|i| Axis::new(m, whole.lo[i], whole.hi[i], n[i]));
-            if let Some(grid) = Self::fill(m, axes, bounds) {
-                return Some(grid);
+            let axes = [0, 1, 2].map(|i| Axis::new(m, whole[0][i], whole[1][i], n[i]));
+            let cell_boxes: Vec<CellBox> =
+                boxes.chunks(LANES).flat_map(|chunk| cell_boxes(m, &axes, chunk)).collect();
+            if plan.voxelizer == Voxelizer::EightCorners {
+                let mut spans = (0..).zip(&cell_boxes).filter_map(|(id, cells)| cells.spans(id));
+                if let Some(event) = spans.next() {
+                    plan.voxelizer = taken(&plan, &event, plan.voxelizer, Voxelizer::BoxRange)?;
+                    events.push(event);
+                    spans.for_each(|event| events.push(event));
+                }
+            }
+            if plan.cells == Cells::Queue && balls.len() > MAX_IDS {
+                let event = Event::TooManyIds { spheres: balls.len() };
+                // Not even the paper can go on: an id would become another.
+                taken(&plan, &event, plan.cells, Cells::Lists)?;
+                events.push(event);
+                plan.cells = Cells::Lists;
+            }
+            if plan.cells == Cells::Queue {
+                match fill_queues(m, &plan, &axes, balls, &cell_boxes, events) {
+                    Ok(queues) => return Ok(Self { axes, widen, storage: Storage::Queues(queues) }),
+                    Err(full) => {
+                        plan.cells = taken(&plan, &full, plan.cells, Cells::Lists)?;
+                        events.push(full);
+                    }
+                }
+            }
+            if let Some(storage) = fill_lists(&plan, &axes, balls, &cell_boxes) {
+                return Ok(Self { axes, widen, storage });
             }
             n = n.map(|n| (n / 2).max(1));
         }
     }
 
-    /// The ids of the spheres of cell (i, j, k), ascending.
-    #[inline]
-    #[must_use]
-    pub fn cell(&self, index: usize) -> &[u32] {
-        &self.ids[self.offsets[index] as usize..self.offsets[index + 1] as usize]
-    }
-
-    /// How far apart in the list neighbours on each axis are.
-    #[must_use]
-    pub fn strides(&self) -> [usize; 3] {
-        let n = [0, 1, 2].map(|i| self.axes[i].n.unsigned_abs() as usize);
-        [n[1] * n[2], n[2], 1]
-    }
-
-    /// Count, then write. `None` if there are more entries than u32 can number: a coarser grid is needed.
-    fn fill<M: Machine>(m: M, axes: [Axis; 3], bounds: &[Bounds]) -> Option<Self> {
-        let cells = axes.iter().map(|a| a.n.unsigned_abs() as usize).product::<usize>();
-        let mut grid = Self { axes, offsets: vec![0; cells + 1], ids: Vec::new() };
-        let boxes: Vec<CellBox> = bounds.chunks(LANES).flat_map(|chunk| grid.cell_boxes(m, chunk)).collect();
-        let mut entries = 0u64;
-        for cell_box in &boxes {
-            entries += cell_box.cells();
-            grid.for_each_cell(cell_box, |grid, cell| grid.offsets[cell + 1] += 1);
-        }
-        u32::try_from(entries).ok()?;
-        for cell in 0..cells {
-            grid.offsets[cell + 1] += grid.offsets[cell];
-        }
-        grid.ids = vec![0; usize::try_from(entries).ok()?];
-        let mut next = grid.offsets.clone();
-        for (id, cell_box) in (0..).zip(&boxes) {
-            grid.for_each_cell(cell_box, |grid, cell| {
-                grid.ids[next[cell] as usize] = id;
-                next[cell] += 1;
-            });
-        }
-        Some(grid)
-    }
-
-    fn for_each_cell(&mut self, cells: &CellBox, mut visit: impl FnMut(&mut Self, usize)) {
-        let [stride_x, stride_y, stride_z] = self.strides();
-        for i in cells.range(0) {
-            for j in cells.range(1) {
-                for k in cells.range(2) {
-                    visit(self, i * stride_x + j * stride_y + k * stride_z);
+    /// Calls `visit` with each id of a cell. `live` = no makes every cell empty.
+    #[inline(always)]
+    pub fn for_each_id(&self, index: usize, live: bool, mut visit: impl FnMut(u32)) {
+        match &self.storage {
+            Storage::Queues(queues) if live => queues[index].ids().for_each(visit),
+            Storage::Queues(_) => {}
+            Storage::Lists { offsets, ids } => {
+                let start = offsets[index] as usize;
+                let end = if live { offsets[index + 1] as usize } else { start };
+                for &id in &ids[start..end] {
+                    visit(id);
                 }
             }
         }
     }
 
-    /// The cells of up to sixteen boxes.
-    fn cell_boxes<M: Machine>(&self, m: M, chunk: &[Bounds]) -> impl Iterator<Item = CellBox> + use<M> {
-        let corner = |i: usize, pick: fn(&Bounds) -> [f32; 3]| {
-            let mut lanes = [0.0; LANES];
-            for (lane, bounds) in lanes.iter_mut().zip(chunk) {
-                *lane = pick(bounds)[i];
+    /// How far apart in the list neighbours on each axis are.
+    #[inline(always)]
+    #[must_use]
+    pub fn strides(&self) -> [usize; 3] {
+        strides(&self.axes)
+    }
+}
+
+fn strides(axes: &[Axis; 3]) -> [usize; 3] {
+    let n = [0, 1, 2].map(|i| axes[i].n.unsigned_abs() as usize);
+    [n[1] * n[2], n[2], 1]
+}
+
+fn index(strides: [usize; 3], cell: [i32; 3]) -> usize {
+    (0..3).map(|i| cell[i].unsigned_abs() as usize * strides[i]).sum()
+}
+
+fn cells(axes: &[Axis; 3]) -> usize {
+    axes.iter().map(|axis| axis.n.unsigned_abs() as usize).product()
+}
+
+/// What to take after an event.
+fn taken<T>(plan: &Plan, event: &Event, chosen: T, instead: T) -> Result<T, RenderError> {
+    match plan.on_event {
+        OnEvent::GoOn => Ok(chosen),
+        OnEvent::FallBack => Ok(instead),
+        OnEvent::Refuse => Err(RenderError::Refused(event.clone())),
+    }
+}
+
+/// The paper's voxelization: all queues of a sphere's cells are read before any is written. An overflow is an event if
+/// the plan goes on, and an error if it does not.
+fn fill_queues<M: Machine>(
+    m: M,
+    plan: &Plan,
+    axes: &[Axis; 3],
+    balls: &[Bounds],
+    boxes: &[CellBox],
+    events: &mut Events,
+) -> Result<Vec<Queue>, Event> {
+    let strides = strides(axes);
+    let mut queues = vec![Queue::EMPTY; cells(axes)];
+    let mut places = Vec::new();
+    for ((id, cells), ball) in (0..).zip(boxes).zip(balls) {
+        places.clear();
+        cells.for_each(plan.voxelizer, axes, ball, |cell| places.push(cell));
+        for &cell in &places {
+            if let Some(lost) = queues[index(strides, cell)].oldest() {
+                let full = Event::CellFull { cell, pushed: id, lost };
+                if plan.on_event != OnEvent::GoOn {
+                    return Err(full);
+                }
+                events.push(full);
             }
-            m.to_array_i(self.axes[i].cell(m, m.lanes(lanes)))
-        };
-        let lo = [0, 1, 2].map(|i| corner(i, |b| b.lo));
-        let hi = [0, 1, 2].map(|i| corner(i, |b| b.hi));
-        (0..chunk.len()).map(move |lane| CellBox {
-            lo: [0, 1, 2].map(|i| lo[i][lane]),
-            hi: [0, 1, 2].map(|i| hi[i][lane]),
-        })
+        }
+        for places in places.chunks(LANES) {
+            let mut read = [Queue::EMPTY; LANES];
+            for (queue, &cell) in read.iter_mut().zip(places) {
+                *queue = queues[index(strides, cell)];
+            }
+            let pushed = Queues::read(m, &read).push(m, m.splat_i(id.cast_signed())).to_array(m);
+            for (queue, &cell) in pushed.iter().zip(places) {
+                queues[index(strides, cell)] = *queue;
+            }
+        }
     }
+    Ok(queues)
 }
 
-/// First and last cell of a box on each axis.
-struct CellBox {
-    lo: [i32; 3],
-    hi: [i32; 3],
+/// Count, then write. `None` if there are more entries than u32 can number: a coarser grid is needed.
+fn fill_lists(plan: &Plan, axes: &[Axis; 3], balls: &[Bounds], boxes: &[CellBox]) -> Option<Storage> {
+    let strides = strides(axes);
+    let mut counts = vec![0u64; cells(axes)];
+    for (cells, ball) in boxes.iter().zip(balls) {
+        cells.for_each(plan.voxelizer, axes, ball, |cell| counts[index(strides, cell)] += 1);
+    }
+    let mut offsets = Vec::with_capacity(counts.len() + 1);
+    let mut entries = 0u64;
+    for count in counts {
+        offsets.push(u32::try_from(entries).ok()?);
+        entries += count;
+    }
+    offsets.push(u32::try_from(entries).ok()?);
+    let mut next = offsets.clone();
+    let mut ids = vec![0; usize::try_from(entries).ok()?];
+    for ((id, cells), ball) in (0..).zip(boxes).zip(balls) {
+        cells.for_each(plan.voxelizer, axes, ball, |cell| {
+            let next = &mut next[index(strides, cell)];
+            ids[*next as usize] = id;
+            *next += 1;
+        });
+    }
+    Some(Storage::Lists { offsets, ids })
 }
 
-impl CellBox {
-    fn range(&self, axis: usize) -> std::ops::RangeInclusive<usize> {
-        self.lo[axis].unsigned_abs() as usize..=self.hi[axis].unsigned_abs() as usize
-    }
-
-    fn cells(&self) -> u64 {
-        [0, 1, 2].map(|i| u64::from(self.hi[i].abs_diff(self.lo[i])) + 1).iter().product()
-    }
+/// The cells of up to sixteen boxes.
+fn cell_boxes<M: Machine>(
+    m: M,
+    axes: &[Axis; 3],
+    chunk: &[Bounds],
+) -> impl Iterator<Item = CellBox> + use<M> {
+    let corner = |i: usize, pick: fn(&Bounds) -> [f32; 3]| {
+        let mut lanes = [0.0; LANES];
+        for (lane, bounds) in lanes.iter_mut().zip(chunk) {
+            *lane = pick(bounds)[i];
+        }
+        m.to_array_i(axes[i].cell(m, m.lanes(lanes)))
+    };
+    let lo = [0, 1, 2].map(|i| corner(i, |b| b.lo));
+    let hi = [0, 1, 2].map(|i| corner(i, |b| b.hi));
+    (0..chunk.len())
+        .map(move |lane| CellBox { lo: [0, 1, 2].map(|i| lo[i][lane]), hi: [0, 1, 2].map(|i| hi[i][lane]) })
 }
 
-/// Cells on each axis: cubes, about [`DENSITY`] a sphere, at most [`MAX_CELLS`] on an axis.
+/// The box around all boxes.
+fn whole(boxes: &[Bounds]) -> [[f32; 3]; 2] {
+    boxes.iter().fold([[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]], |[lo, hi], b| {
+        [[0, 1, 2].map(|i| lo[i].min(b.lo[i])), [0, 1, 2].map(|i| hi[i].max(b.hi[i]))]
+    })
+}
+
+/// Cells on each axis. Chosen ones are cubes, about [`DENSITY`] a sphere; for eight corners they are wider than any
+/// sphere's box.
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "a rule of thumb")]
-fn resolution(whole: &Bounds, spheres: usize) -> [i32; 3] {
-    let extent = [0, 1, 2].map(|i| f64::from(whole.hi[i]) - f64::from(whole.lo[i]));
-    let volume = extent[0] * extent[1] * extent[2];
-    let per_unit = (DENSITY * spheres as f64 / volume).cbrt();
-    extent.map(|e| ((e * per_unit).round() as i32).clamp(1, MAX_CELLS))
+fn resolution(plan: &Plan, [lo, hi]: &[[f32; 3]; 2], balls: &[Bounds]) -> Result<[i32; 3], RenderError> {
+    let (Resolution::Fixed(limit) | Resolution::UpTo(limit)) = plan.resolution;
+    if limit == 0 || usize::from(limit) > MAX_CELLS {
+        return Err(RenderError::Resolution { cells: limit });
+    }
+    if let Resolution::Fixed(n) = plan.resolution {
+        return Ok([i32::from(n); 3]);
+    }
+    let extent = [0, 1, 2].map(|i| f64::from(hi[i]) - f64::from(lo[i]));
+    // An axis without extent (one sphere by centre) has one cell; it counts as one unit in the volume.
+    let volume: f64 = extent.iter().filter(|e| **e > 0.0).product();
+    let per_unit = (DENSITY * balls.len() as f64 / volume).cbrt();
+    let widest = balls.iter().map(|ball| f64::from(ball.radius)).fold(0.0, f64::max) * 2.001;
+    Ok(extent.map(|e| {
+        let n = ((e * per_unit).round() as i32).clamp(1, i32::from(limit));
+        if plan.voxelizer == Voxelizer::EightCorners { n.min((e / widest) as i32).max(1) } else { n }
+    }))
 }

@@ -6,58 +6,77 @@
 //! The simple program is that loop. The departures from it, each in its module, in the order in which data
 //! flows: sixteen rays share each decision ([`machine`], [`camera`], [`sphere`]); a grid lists the spheres of
 //! each cell ([`margin`], [`grid`]); a packet meets only the cells its frustum overlaps ([`frustum`], [`walk`]);
-//! colours are computed for a block at once ([`shade`]); stripes of the image go to workers ([`frame`]).
+//! spheres outside the frustum's planes are dropped ([`cull`]); colours are computed for a block at once ([`shade`]);
+//! stripes of the image go to workers ([`frame`]). Which of them are taken, and how, is a [`Plan`].
 //!
 //! Kernels are generic over [`machine::Machine`] and free of memory access; the machines of the host are in
 //! [`host`].
 //!
 //! ```
 //! use contract::{Camera, DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
-//! use optimized::{Form, Tracer};
+//! use optimized::{Level, Plan, Tracer};
 //!
 //! let sphere = Sphere { center: [0.0, 0.0, 0.0], radius: 1.0, color: [200, 80, 40] };
 //! let scene = Scene::new(vec![sphere], [0, 0, 0], DEFAULT_LIGHT)?;
 //! let size = Size::new(3, 3)?;
 //! let camera = Camera::new([0.0, 0.0, 5.0], [-1.5, 1.5, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], size)?;
-//! let image = Tracer::new(Form::Perpendicular).render(&scene, &camera)?;
+//! let image = Tracer::new(Plan::safe(), Level::best()?).render(&scene, &camera)?.image;
 //! assert_eq!(image.ids, [MISS, MISS, MISS, MISS, 0, MISS, MISS, MISS, MISS]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod plan;
+
 pub mod machine;
+
+pub mod host;
 
 pub mod camera;
 pub mod sphere;
 
 pub mod margin;
 
+pub mod queue;
+
+pub mod voxelize;
+
 pub mod grid;
 
 pub mod frustum;
+
+pub mod cull;
+
 pub mod walk;
+
+pub mod seen;
 
 pub mod shade;
 
+pub mod event;
 pub mod frame;
 
-pub mod host;
-
+pub use event::{Event, Events, RenderError};
+pub use frame::Rendering;
+pub use host::Level;
+pub use plan::Plan;
 pub use sphere::Form;
 
-use contract::{Camera, Image, Scene, SizeError};
+use contract::{Camera, Scene};
+use machine::Machine;
 
-/// A grid tracer with its arithmetic and number of workers chosen.
+/// A grid tracer with its plan, level and number of workers chosen.
 #[derive(Clone, Copy, Debug)]
 pub struct Tracer {
-    form: Form,
+    plan: Plan,
+    level: Level,
     workers: usize,
 }
 
 impl Tracer {
-    /// A tracer with one worker.
+    /// A tracer with one worker, at a level that the processor has.
     #[must_use]
-    pub fn new(form: Form) -> Self {
-        Self { form, workers: 1 }
+    pub fn new(plan: Plan, level: Level) -> Self {
+        Self { plan, level, workers: 1 }
     }
 
     /// The same with so many workers, at least one. The picture does not depend on it.
@@ -69,8 +88,23 @@ impl Tracer {
     /// Renders a scene, grid building included.
     ///
     /// # Errors
-    /// [`SizeError::NoMemory`] if the image cannot be had.
-    pub fn render(&self, scene: &Scene, camera: &Camera) -> Result<Image, SizeError> {
-        frame::render(host::Scalar, self.form, scene, camera, self.workers)
+    /// [`RenderError`] if the image cannot be had or the plan refuses what the scene does.
+    pub fn render(&self, scene: &Scene, camera: &Camera) -> Result<Rendering, RenderError> {
+        self.level.run(Frame { plan: self.plan, scene, camera, workers: self.workers })
+    }
+}
+
+struct Frame<'a> {
+    plan: Plan,
+    scene: &'a Scene,
+    camera: &'a Camera,
+    workers: usize,
+}
+
+impl host::Work for Frame<'_> {
+    type Output = Result<Rendering, RenderError>;
+
+    fn on<M: Machine + Send + Sync>(self, m: M) -> Self::Output {
+        frame::render(m, self.plan, self.scene, self.camera, self.workers)
     }
 }

@@ -20,6 +20,10 @@ pub enum Site {
     Sphere,
     /// Can a later slice still win for any ray?
     Unfinished,
+    /// Does the sphere lie outside any plane of the frustum?
+    Culled,
+    /// Is there another cell? (The one branch of the flattened loop.)
+    NextCell,
 }
 
 /// Sixteen lanes and what can be done with them.
@@ -31,6 +35,12 @@ pub trait Machine: Copy {
     /// Sixteen times yes or no.
     type B: Copy;
 
+    /// Rim: does work with this machine's instructions enabled, the one door into them. Everything below it is
+    /// inlined into it.
+    #[inline(always)]
+    fn within<R>(self, work: impl FnOnce() -> R) -> R {
+        work()
+    }
     /// Rim: lanes from an array.
     fn lanes(self, x: [f32; LANES]) -> Self::F;
     /// Rim: lanes from an array.
@@ -75,6 +85,12 @@ pub trait Machine: Copy {
 
     /// x + y, modulo 2³².
     fn add_i(self, x: Self::I, y: Self::I) -> Self::I;
+    /// Bits of either.
+    fn or_i(self, x: Self::I, y: Self::I) -> Self::I;
+    /// x times 2¹⁶, modulo 2³².
+    fn shl_16(self, x: Self::I) -> Self::I;
+    /// The upper 16 bits of x.
+    fn shr_16(self, x: Self::I) -> Self::I;
     /// The largest integer not above x, saturated to i32; 0 for NaN.
     fn floor(self, x: Self::F) -> Self::I;
     /// x cut off towards zero, saturated to i32; 0 for NaN.
@@ -85,8 +101,14 @@ pub trait Machine: Copy {
     /// The largest lane, in every lane. No lane may be NaN.
     fn largest(self, x: Self::F) -> Self::F;
 
-    /// Door: is any lane yes?
+    /// Door: is any lane yes? Mostly not, so not taken is the likely way.
     fn any(self, x: Self::B, site: Site) -> bool;
+
+    /// Door: go round the loop again, since any lane says so? Mostly yes, so taken is the likely way.
+    #[inline(always)]
+    fn again(self, x: Self::B, site: Site) -> bool {
+        self.any(x, site)
+    }
 
     /// −x, by an operation that is exact for every x.
     #[inline(always)]

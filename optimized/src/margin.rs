@@ -38,18 +38,22 @@
 //! underflow of 2⁻¹⁴⁹ anywhere stays below u times the terms kept (the nearest case, D w under the root, moves
 //! P by 2⁻⁵⁴ <= u r). A scene out of range is still rendered, with every sphere a candidate of every ray.
 
+use crate::plan::Margins;
 use crate::sphere::Form;
 use contract::{Camera, Sphere};
 
 /// 64 units of f32 rounding.
 const SLACK: f64 = 64.0 / (1u32 << 24) as f64;
 
-/// The radius within which every reported hit of the form lies, rounded up.
+/// The radius within which every reported hit of the form lies, rounded up; the bare radius without margins.
 ///
 /// `f` is eye − centre, `radius` the sphere's.
 #[must_use]
 #[allow(clippy::cast_possible_truncation, reason = "rounded up right after")]
-pub fn reach(form: Form, f: [f32; 3], radius: f32) -> f32 {
+pub fn reach(margins: Margins, form: Form, f: [f32; 3], radius: f32) -> f32 {
+    if margins == Margins::None {
+        return radius;
+    }
     let r = f64::from(radius);
     let distance = f.iter().map(|&x| f64::from(x) * f64::from(x)).sum::<f64>().sqrt();
     let reach = match form {

@@ -27,6 +27,8 @@ pub struct Prepared {
     pub rr: f32,
     /// f·f − r².
     pub q: f32,
+    /// The radius that culling goes by ([`crate::cull::radius`]); the sphere's own until that is known.
+    pub cull_radius: f32,
 }
 
 impl Prepared {
@@ -36,7 +38,7 @@ impl Prepared {
         let f = [0, 1, 2].map(|i| eye[i] - sphere.center[i]);
         let rr = sphere.radius * sphere.radius;
         let ff = (f[0] * f[0] + f[1] * f[1]) + f[2] * f[2];
-        Self { f, rr, q: ff - rr }
+        Self { f, rr, q: ff - rr, cull_radius: sphere.radius }
     }
 }
 

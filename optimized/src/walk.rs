@@ -1,72 +1,143 @@
-//! Through the grid: slice by slice from the eye outward, in each slice the packet's rectangle of cells, in each
-//! cell its spheres (Wald et al. 2006; the paper's Figure 3, top).
+//! Through the cells: slice by slice from the eye outward, in each slice the packet's rectangle, in an order and with an
+//! end that three loops share, or should (the paper's Figure 3).
 //!
-//! The walk ends early when no later slice can win. A sphere not yet met is listed, if it has a hit that wins, in
+//! *Nested* is the simple program: for each slice, for each j from first to last, for each k from first to last.
+//!
+//! *Flattened* is one loop. Its [`step`] computes the three cases "next k", "next j", "next slice" and selects; the
+//! loop's own branch is the only one. Four things had to be mended against the print: k runs innermost as in the nested
+//! loops (the print runs j); a new slice starts at *its* bounds (the print keeps the first slice's); a cell of an
+//! empty slice is not visited (the print visits it); and the loop ends by a flag for the slice reached and not by a
+//! comparison after the increment.
+//!
+//! *Printed* is the print.
+//!
+//! # The end
+//!
+//! After a slice the walk may stop if no later slice can win. A sphere not yet met is listed, if it has a hit that wins, in
 //! the slice of that hit's point P (the lemma of [`crate::margin`]). If for every ray the nearest hit so far lies, by
 //! A = t |d_X|, strictly before the end of the current slice, then so does any P with a smaller or equal t, and its
-//! slice has been visited. A is computed with two roundings and enlarged by 2⁻²⁰ to cover them.
+//! slice has been visited. A is computed with two roundings and enlarged by 2⁻²⁰ to cover them and those of the
+//! slice's distance. If spheres are listed by centre, which is up to w from P, then P must lie w before the end.
 
-use crate::camera::Block;
-use crate::frame::Seen;
-use crate::frustum::Frustum;
-use crate::grid::Grid;
-use crate::machine::{LANES, Machine, Site};
-use crate::sphere::Nearest;
+use crate::frustum::Slices;
+use crate::machine::{Machine, Site};
+use crate::plan::Loop;
 
-/// 1 + 2⁻²⁰: more than the roundings of t |d_X| and of a slice's distance.
-const BEYOND: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
-
-/// The nearest hit of each ray of a packet.
-#[inline(always)]
-pub fn walk<M: Machine>(
-    m: M,
-    seen: &Seen,
-    grid: &Grid,
-    block: &Block<M>,
-    frustum: &Frustum<M>,
-) -> Nearest<M> {
-    let mut nearest = Nearest::none(m);
-    let axis = &grid.axes[frustum.order[0]];
-    let (slices, strides) = (axis.n.unsigned_abs() as usize, grid.strides());
-    let stride = frustum.order.map(|i| strides[i]);
-    let eye = seen.eye[frustum.order[0]];
-    // Slice number `s` in walking order, and the distances of its two planes from the eye.
-    let index = |s: usize| if frustum.forward { s } else { slices - 1 - s };
-    let distances = |s: usize| {
-        let (lower, upper) = (axis.planes[index(s)], axis.planes[index(s) + 1]);
-        if frustum.forward { [lower - eye, upper - eye] } else { [eye - upper, eye - lower] }
-    };
-    let farthest = distances(slices - 1)[1];
-
-    for start in (0..slices).step_by(LANES) {
-        let (mut near, mut far) = ([0.0; LANES], [-1.0; LANES]);
-        for (lane, s) in (start..slices.min(start + LANES)).enumerate() {
-            [near[lane], far[lane]] = distances(s);
-        }
-        let r = frustum.rectangles(m, seen.eye, grid, m.lanes(near), m.lanes(far), farthest);
-        for (lane, s) in (start..slices.min(start + LANES)).enumerate() {
-            let mut visited = false;
-            for j in r.first[0][lane]..=r.last[0][lane] {
-                for k in r.first[1][lane]..=r.last[1][lane] {
-                    let (j, k) = (j.unsigned_abs() as usize, k.unsigned_abs() as usize);
-                    for &id in grid.cell(index(s) * stride[0] + j * stride[1] + k * stride[2]) {
-                        nearest =
-                            nearest.meet(m, seen.form, block, &seen.spheres[id as usize], id.cast_signed());
-                        visited = true;
-                    }
-                }
-            }
-            if visited && finished(m, frustum, &nearest, far[lane]) {
-                return nearest;
-            }
-        }
-    }
-    nearest
+/// A slice and a cell of its rectangle, the same in all lanes.
+#[derive(Clone, Copy)]
+pub struct Cursor<M: Machine> {
+    /// Slice, in the order of the walk.
+    pub slice: M::I,
+    /// Cell on the second axis.
+    pub j: M::I,
+    /// Cell on the third axis.
+    pub k: M::I,
 }
 
-/// Kernel: whether every ray's nearest hit lies before distance `far`.
+/// First and last cell of a slice on the second and third axis, the same in all lanes.
+#[derive(Clone, Copy)]
+pub struct Rectangle<M: Machine> {
+    /// First.
+    pub first: [M::I; 2],
+    /// Last; below the first if there is no cell.
+    pub last: [M::I; 2],
+}
+
+/// What is done at the cells of a walk, and whether it may end.
+pub trait Visitor<M: Machine> {
+    /// Called for each cell: number of the slice in the walk, j, k. Not `live`: called only because the loop does not
+    /// branch; nothing is to be done.
+    fn visit(&mut self, slice: usize, j: i32, k: i32, live: bool);
+
+    /// Rays for which a slice after this one may still win.
+    fn unfinished(&self, slice: usize) -> M::B;
+}
+
+/// Walks the slices by the loop of choice.
 #[inline(always)]
-fn finished<M: Machine>(m: M, frustum: &Frustum<M>, nearest: &Nearest<M>, far: f32) -> bool {
-    let reached = m.mul(m.mul(nearest.t, frustum.speed), m.splat(BEYOND));
-    !m.any(m.not(m.le(reached, m.splat(far))), Site::Unfinished)
+pub fn walk<M: Machine>(m: M, walk: Loop, slices: &Slices, visitor: &mut impl Visitor<M>) {
+    match walk {
+        Loop::Nested => nested(m, slices, visitor),
+        Loop::Flattened => flattened(m, slices, visitor),
+        Loop::Printed => printed(slices, visitor),
+    }
+}
+
+#[inline(always)]
+fn nested<M: Machine>(m: M, slices: &Slices, visitor: &mut impl Visitor<M>) {
+    for s in 0..slices.count {
+        for j in slices.first[0][s]..=slices.last[0][s] {
+            for k in slices.first[1][s]..=slices.last[1][s] {
+                visitor.visit(s, j, k, true);
+            }
+        }
+        if !slices.is_empty(s) && !m.again(visitor.unfinished(s), Site::Unfinished) {
+            return;
+        }
+    }
+}
+
+#[inline(always)]
+fn flattened<M: Machine>(m: M, slices: &Slices, visitor: &mut impl Visitor<M>) {
+    let rectangle = |s: usize| Rectangle {
+        first: [m.splat_i(slices.first[0][s]), m.splat_i(slices.first[1][s])],
+        last: [m.splat_i(slices.last[0][s]), m.splat_i(slices.last[1][s])],
+    };
+    let last_slice = slices.count - 1;
+    let start = rectangle(0);
+    let mut at = Cursor { slice: m.splat_i(0), j: start.first[0], k: start.first[1] };
+    let end = m.splat_i(i32::try_from(slices.count).expect("at most MAX_CELLS"));
+    loop {
+        let [s, j, k] = [at.slice, at.j, at.k].map(
+            #[inline(always)]
+            |x| m.to_array_i(x)[0],
+        );
+        let s = s.unsigned_abs() as usize;
+        visitor.visit(s, j, k, !slices.is_empty(s));
+        let next = step(m, at, &rectangle(s), &rectangle((s + 1).min(last_slice)));
+        let same = m.not(m.lt_i(at.slice, next.slice));
+        let go_on = m.and(m.lt_i(next.slice, end), m.or(same, visitor.unfinished(s)));
+        if !m.again(go_on, Site::NextCell) {
+            return;
+        }
+        at = next;
+    }
+}
+
+/// Kernel: the successor of a cell, given its slice's rectangle and the next slice's. Straight-line: the three cases are
+/// all computed, and selected. A slice without cells is left at once.
+#[inline(always)]
+pub fn step<M: Machine>(m: M, at: Cursor<M>, here: &Rectangle<M>, next: &Rectangle<M>) -> Cursor<M> {
+    let one = m.splat_i(1);
+    let some = m.not(m.or(m.lt_i(here.last[0], here.first[0]), m.lt_i(here.last[1], here.first[1])));
+    let more_k = m.and(some, m.lt_i(at.k, here.last[1]));
+    let more_j = m.and(some, m.lt_i(at.j, here.last[0]));
+    let more = m.or(more_k, more_j);
+    let restart_k = m.select_i(more_j, here.first[1], next.first[1]);
+    let advance_j = m.select_i(more_j, m.add_i(at.j, one), next.first[0]);
+    Cursor {
+        slice: m.select_i(more, at.slice, m.add_i(at.slice, one)),
+        j: m.select_i(more_k, at.j, advance_j),
+        k: m.select_i(more_k, m.add_i(at.k, one), restart_k),
+    }
+}
+
+/// The loop as printed: bounds of the first slice for all, j innermost, a visit before any check. With an empty first
+/// range it would run out of the grid; there, and only there, it is kept from that.
+#[inline(always)]
+fn printed<M: Machine>(slices: &Slices, visitor: &mut impl Visitor<M>) {
+    let Some(start) = (0..slices.count).find(|&s| !slices.is_empty(s)) else { return };
+    let [first_j, first_k] = [slices.first[0][start], slices.first[1][start]];
+    let [last_j, last_k] = [slices.last[0][start], slices.last[1][start]];
+    let (mut i, mut j, mut k) = (start, first_j, first_k);
+    while i < slices.count {
+        visitor.visit(i, j, k, true);
+        if j < last_j {
+            j += 1;
+        } else if k < last_k {
+            (j, k) = (first_j, k + 1);
+        } else {
+            (i, j, k) = (i + 1, first_j, first_k);
+        }
+    }
 }

@@ -84,11 +84,23 @@ impl Tracer {
         row_done: &(dyn Fn() + Sync),
     ) -> Result<Rendering, RenderError> {
         let mut image = Image::new(camera.size(), scene.background())?;
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(self.threads)
-            .build()
-            .map_err(|cause| RenderError::Threads { threads: self.threads, cause })?;
-        let undecided = pool.install(|| self.fill(scene, camera, &mut image, row_done));
+        let width = image.size.width() as usize;
+        let row = |(y, ((ids, t), rgba))| {
+            let undecided = self.row(scene, camera, y, Row { ids, t, rgba });
+            row_done();
+            undecided
+        };
+        let (ids, t, rgba) = (&mut image.ids, &mut image.t, &mut image.rgba);
+        let undecided = if self.threads == 1 {
+            let rows = ids.chunks_mut(width).zip(t.chunks_mut(width)).zip(rgba.chunks_mut(width));
+            rows.enumerate().map(row).fold(Undecided::default(), |x, y| x + y)
+        } else {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads).build();
+            let pool = pool.map_err(|cause| RenderError::Threads { threads: self.threads, cause })?;
+            let ids = ids.par_chunks_mut(width);
+            let rows = ids.zip(t.par_chunks_mut(width)).zip(rgba.par_chunks_mut(width));
+            pool.install(|| rows.enumerate().map(row).reduce(Undecided::default, |x, y| x + y))
+        };
         Ok(Rendering { image, undecided })
     }
 
@@ -111,28 +123,22 @@ impl Tracer {
         }
     }
 
-    fn fill(
-        &self,
-        scene: &Scene,
-        camera: &Camera,
-        image: &mut Image,
-        row_done: &(dyn Fn() + Sync),
-    ) -> Undecided {
-        let width = image.size.width() as usize;
-        let ids = image.ids.par_chunks_mut(width);
-        let rows = ids.zip(image.t.par_chunks_mut(width)).zip(image.rgba.par_chunks_mut(width));
-        let rows = rows.enumerate().map(|(y, ((ids, t), rgba))| {
-            let mut undecided = Undecided::default();
-            let y = u32::try_from(y).expect("rows are below 2^14");
-            for (x, i) in (0..).zip(0..width) {
-                let ray = Ray::of_pixel(camera, x, y);
-                if let Some(hit) = self.trace_counting(&ray, scene, &mut undecided) {
-                    (ids[i], t[i], rgba[i]) = (hit.id, hit.t, shade::shade(scene, &ray, hit));
-                }
+    fn row(&self, scene: &Scene, camera: &Camera, y: usize, row: Row<'_>) -> Undecided {
+        let mut undecided = Undecided::default();
+        let y = u32::try_from(y).expect("rows are below 2^14");
+        for (x, i) in (0..camera.size().width()).zip(0..) {
+            let ray = Ray::of_pixel(camera, x, y);
+            if let Some(hit) = self.trace_counting(&ray, scene, &mut undecided) {
+                (row.ids[i], row.t[i], row.rgba[i]) = (hit.id, hit.t, shade::shade(scene, &ray, hit));
             }
-            row_done();
-            undecided
-        });
-        rows.reduce(Undecided::default, |x, y| x + y)
+        }
+        undecided
     }
+}
+
+/// One row of each layer of the image.
+struct Row<'a> {
+    ids: &'a mut [u32],
+    t: &'a mut [f32],
+    rgba: &'a mut [[u8; 4]],
 }

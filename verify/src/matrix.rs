@@ -58,6 +58,9 @@ const GENERATED: [&str; 9] = [
 /// Image sizes, taken in turn.
 const SIZES: [[u32; 2]; 6] = [[61, 47], [40, 36], [1, 1], [3, 5], [66, 2], [37, 64]];
 
+/// Scenes of more spheres have smaller pictures, so that the naive tracer gets through.
+const LARGE: usize = 10_000;
+
 /// Frames of an animation that are rendered in one view each: the first 24.
 const FRAMES: usize = 24;
 
@@ -99,7 +102,8 @@ impl Matrix {
     }
 
     fn add(&mut self, name: String, scene: &Scene, framing: &Framing) -> Result<(), MatrixError> {
-        let [width, height] = SIZES[self.cases.len() % SIZES.len()];
+        let large = scene.spheres().len() > LARGE;
+        let [width, height] = if large { [18, 13] } else { SIZES[self.cases.len() % SIZES.len()] };
         let size = Some(Size::new(width, height)?);
         let camera = Framing { size, ..*framing }.camera(&Animation::from(scene.clone()))?;
         self.cases.push(Case { name, scene: scene.clone(), camera });
@@ -185,7 +189,14 @@ fn hand_made() -> Vec<(&'static str, Vec<Sphere>)> {
     let mut mixed = cube(5, 1.0, 0.1);
     mixed.push(ball([2.0, 2.0, 2.0], 3.0, 77));
     mixed.push(ball([0.0, 0.0, 40.0], 30.0, 177));
+    let scaled = |factor: f32| {
+        let scale =
+            |s: Sphere| Sphere { center: s.center.map(|x| factor * x), radius: factor * s.radius, ..s };
+        cube(4, 3.0, 1.5).into_iter().map(scale).collect()
+    };
     vec![
+        ("tiny, where f32 underflows", scaled(1e-20)),
+        ("huge, where f32 overflows", scaled(1e20)),
         ("nothing", Vec::new()),
         ("touching", cube(6, 2.0, 1.0)),
         ("coincident", coincident),

@@ -146,10 +146,11 @@ impl Subject for Grid {
         threads: usize,
         row_done: &(dyn Fn() + Sync),
     ) -> Result<Image, SubjectError> {
-        let image =
-            optimized::Tracer::new(optimized::Form::Perpendicular).workers(threads).render(scene, camera)?;
+        let tracer =
+            optimized::Tracer::new(optimized::Plan::safe(), optimized::Level::best()?).workers(threads);
+        let rendering = tracer.render(scene, camera)?;
         (0..camera.size().height()).for_each(|_| row_done());
-        Ok(image)
+        Ok(rendering.image)
     }
 }
 

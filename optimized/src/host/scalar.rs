@@ -94,6 +94,18 @@ impl Machine for Scalar {
         from_fn(|i| x[i].wrapping_add(y[i]))
     }
     #[inline(always)]
+    fn or_i(self, x: Self::I, y: Self::I) -> Self::I {
+        from_fn(|i| x[i] | y[i])
+    }
+    #[inline(always)]
+    fn shl_16(self, x: Self::I) -> Self::I {
+        x.map(|x| x << 16)
+    }
+    #[inline(always)]
+    fn shr_16(self, x: Self::I) -> Self::I {
+        x.map(|x| x.cast_unsigned().wrapping_shr(16).cast_signed())
+    }
+    #[inline(always)]
     #[allow(clippy::cast_possible_truncation, reason = "`as` saturates, as the trait says")]
     fn floor(self, x: Self::F) -> Self::I {
         x.map(|x| x.floor() as i32)

@@ -7,7 +7,7 @@
 //! of a triclinic cell is not undone for scaled positions; they are refused.
 
 use super::frames::Frames;
-use super::text::{Line, Lines, Word};
+use super::text::{Line, Lines};
 use super::{Format, Loaded, ReadError};
 use crate::scenes::elements::by_symbol;
 use contract::{Rgb, Sphere};
@@ -29,7 +29,6 @@ struct Columns {
     id: Option<usize>,
     kind: Option<usize>,
     element: Option<usize>,
-    count: usize,
 }
 
 enum End {
@@ -127,7 +126,6 @@ fn box_bounds(lines: &mut Lines<'_>) -> Result<Option<[[f64; 3]; 3]>, ReadError>
 fn columns(line: Line<'_>) -> Result<Columns, ReadError> {
     let mut found = Columns::default();
     for (at, word) in line.words().skip(2).enumerate() {
-        found.count = at + 1;
         match word.text {
             b"x" | b"xu" => found.position[0] = Some((at, false)),
             b"y" | b"yu" => found.position[1] = Some((at, false)),
@@ -181,9 +179,8 @@ fn atom(
     bounds: Option<[[f64; 3]; 3]>,
     order: u64,
 ) -> Result<(u64, Sphere), ReadError> {
-    let words: Vec<Word<'_>> = line.words().take(columns.count).collect();
     let word = |at: usize, field| {
-        words.get(at).copied().ok_or_else(|| line.missing(field, "each named column must be filled"))
+        line.words().nth(at).ok_or_else(|| line.missing(field, "each named column must be filled"))
     };
     let mut center = [0.0; 3];
     for (axis, field) in ["x", "y", "z"].into_iter().enumerate() {

@@ -2,15 +2,16 @@
 //! This is no reader of the scene language: every other line is passed over, and a radius that is a name is drawn as
 //! [`NAMED_RADIUS`] with a warning. A line that begins as a sphere and is none is refused.
 //!
-//! POV-Ray's coordinates are left-handed; z is turned round, so that pictures are not mirrored.
+//! POV-Ray's coordinates are left-handed, and lists like the teapot's have z up. y and z are exchanged, which makes
+//! them right-handed, so that pictures are not mirrored, with y up.
 
 use super::frames::Frames;
 use super::text::{Line, Lines};
 use super::{Format, Loaded, ReadError};
 use contract::Sphere;
 
-/// The radius where the file gives a name. The teapot's points lie about 0.1 apart.
-pub(super) const NAMED_RADIUS: f32 = 0.0625;
+/// The radius where the file gives a name: that of POV-Ray's own example with the teapot.
+pub(super) const NAMED_RADIUS: f32 = 0.05;
 const WANT: &str = "a line of spheres must read: sphere {<x,y,z>,r}";
 
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
@@ -33,19 +34,18 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
 }
 
 fn sphere(line: Line<'_>, named: &mut Option<(usize, String)>) -> Result<Sphere, ReadError> {
+    let delimiter = |b: &u8| matches!(b, b'<' | b'>' | b'{' | b'}' | b',');
     let mut fields = Vec::new();
-    let mut start = None;
-    for (at, byte) in line.text.iter().enumerate() {
-        let ends = matches!(byte, b'<' | b'>' | b'{' | b'}' | b',');
-        if let (true, Some(first)) = (ends, start) {
-            fields.push(line.columns(first + 1, at));
-        }
-        start = if ends { Some(at + 1) } else { start };
+    let mut start = line.text.iter().position(delimiter);
+    // Four fields make a sphere, a fifth spoils it, and more are not looked at.
+    while let Some(first) = start.filter(|_| fields.len() < 5) {
+        start = line.text[first + 1..].iter().position(delimiter).map(|n| first + 1 + n);
+        let field = start.map(|end| line.columns(first + 2, end));
+        fields.extend(field.filter(|word| !word.text.is_empty()));
     }
-    fields.retain(|word| !word.text.is_empty());
     let [x, y, z, r] = fields[..] else { return Err(line.missing("sphere", WANT)) };
     let center = [x.number("x")?, y.number("y")?, z.number("z")?];
-    let center = [center[0], center[1], -center[2]];
+    let center = [center[0], center[2], center[1]];
     let is_name = r.text[0].is_ascii_alphabetic() && r.number("radius").is_err();
     let radius = if is_name && !names_no_number(r.text) {
         named.get_or_insert_with(|| (line.number, r.shown()));

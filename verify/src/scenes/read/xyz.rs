@@ -1,6 +1,6 @@
 //! XYZ files: a line with a count, a comment line, then so many lines `element x y z`, again and again. The
 //! element is a symbol or an atomic number; coordinates are Ångström; the count may differ from frame to frame
-//! and be 0; further columns are passed over. Refused are counts the file has no bytes for and lines that hold
+//! and be 0; further columns and blank lines between frames are passed over. Refused are counts the file has no bytes for and lines that hold
 //! no atom.
 
 use super::frames::Frames;
@@ -15,7 +15,7 @@ const SHORTEST_ATOM: usize = 8;
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
     let mut frames = Frames::new(file, bytes.len());
     let mut lines = Lines::new(file, "XYZ", bytes)?;
-    while !lines.only_blank_left() {
+    loop {
         match frame(&mut lines, &mut frames) {
             Ok(true) => {}
             Ok(false) => break,
@@ -31,10 +31,8 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
 
 /// Reads a frame; whether another may follow.
 fn frame(lines: &mut Lines<'_>, frames: &mut Frames<'_>) -> Result<bool, ReadError> {
-    let Some(head) = lines.next() else { return Ok(false) };
-    let Some(word) = head.words().next() else {
-        return Err(head.missing("count of atoms", "a whole number from 0 must stand here"));
-    };
+    let mut heads = lines.by_ref().filter_map(|line| Some((line, line.words().next()?)));
+    let Some((head, word)) = heads.next() else { return Ok(false) };
     // A count is refused where the rest of the file has no room for it, unless frames before it are whole.
     let count = match word.count("count of atoms", SHORTEST_ATOM, lines.left() + 1) {
         Err(ReadError::Count { count, left, .. }) if frames.len() > 0 => {

@@ -1,0 +1,61 @@
+//! A sphere against the frustum's four planes.
+//!
+//! In coordinates relative to the eye, with A along the major axis, the frustum is
+//! lo_Y A <= Y <= hi_Y A and lo_Z A <= Z <= hi_Z A (module [`crate::frustum`]). Each side is a plane through the eye with
+//! an unnormalised normal of length N = √(1 + slope²), so that a ball of radius R around (A, Y, Z) has a point inside
+//! if and only if Y − lo_Y A >= −R N, and so on. Four planes are four lanes.
+//!
+//! *Margin.* The reported point P lies in the frustum up to the rounding of the slopes, u |A_P| with A_P <= A + R, and
+//! within R of the centre. The signed distance is computed with at most 5u (|Y| + |A|) of error (u from the centre's
+//! difference, u each from slope, product and sum). Both are below 16u (|f|₁ + R), |f|₁ the sum of the centre's
+//! coordinates, which is added to R once a frame ([`radius`]); since N >= 1 it covers them. N is enlarged by 2⁻²⁰ for
+//! its own rounding. So whatever is dropped has no point P in the frustum: *hit => kept*.
+
+use crate::frustum::Frustum;
+use crate::machine::{LANES, Machine, Site};
+use crate::plan::Margins;
+
+/// 16 units of f32 rounding.
+const SLACK: f32 = 16.0 / (1u32 << 24) as f32;
+/// 1 + 2⁻²⁰.
+const LONGER: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
+
+/// The four planes of a frustum, one a lane; further lanes repeat them.
+#[derive(Clone, Copy)]
+pub struct Planes<M: Machine> {
+    /// Coefficients of A, Y and Z: (−lo, 1, 0), (hi, −1, 0), (−lo, 0, 1), (hi, 0, −1).
+    normal: [M::F; 3],
+    /// Minus the length of each.
+    minus_length: M::F,
+}
+
+/// What a sphere's reach becomes for culling: see the module's text. `f` is eye − centre.
+#[must_use]
+pub fn radius(margins: Margins, f: [f32; 3], reach: f32) -> f32 {
+    match margins {
+        Margins::None => reach,
+        Margins::Derived => (reach + SLACK * (f[0].abs() + f[1].abs() + f[2].abs() + reach)).next_up(),
+    }
+}
+
+impl<M: Machine> Planes<M> {
+    /// The planes of a frustum.
+    #[inline(always)]
+    pub fn new(m: M, frustum: &Frustum<M>, margins: Margins) -> Self {
+        let [[lo_y, hi_y], [lo_z, hi_z]] = frustum.slope_arrays(m);
+        let four = |values: [f32; 4]| m.lanes(std::array::from_fn(|lane| values[lane % 4]));
+        let along = four([-lo_y, hi_y, -lo_z, hi_z]);
+        let (one, longer) = (m.splat(1.0), if margins == Margins::Derived { LONGER } else { 1.0 });
+        let length = m.mul(m.sqrt(m.add(one, m.mul(along, along))), m.splat(longer));
+        const { assert!(LANES.is_multiple_of(4)) };
+        let normal = [along, four([1.0, -1.0, 0.0, 0.0]), four([0.0, 0.0, 1.0, -1.0])];
+        Self { normal, minus_length: m.neg(length) }
+    }
+
+    /// Kernel: whether a ball lies wholly outside one of the planes. `center` is relative to the eye, along (A, Y, Z).
+    #[inline(always)]
+    pub fn cull(&self, m: M, center: [M::F; 3], radius: M::F) -> bool {
+        let distance = m.dot(self.normal, center);
+        m.any(m.lt(distance, m.mul(self.minus_length, radius)), Site::Culled)
+    }
+}

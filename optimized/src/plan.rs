@@ -1,0 +1,160 @@
+//! A plan: one choice for each concern of the tracer, each with what it needs to be right.
+//!
+//! [`Plan::paper`] is Chapman's paper to the letter, so that it can be seen to fail; [`Plan::safe`] is the same with every
+//! precondition enforced or mended. A precondition that a scene breaks is an [`Event`](crate::event::Event); the plan
+//! says what then happens ([`OnEvent`]), and the event is in the result in any case.
+
+use crate::sphere::Form;
+use std::fmt;
+
+/// How spheres get into cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Voxelizer {
+    /// Into the cells of the eight corners of the sphere's box (the paper). Needs: no sphere's box spans more than
+    /// two cells on an axis, [`Event::SpansCells`](crate::event::Event::SpansCells).
+    EightCorners,
+    /// Into all cells of the sphere's box.
+    BoxRange,
+    /// Into the cells of its box whose own box the ball meets.
+    Overlap,
+    /// Into the cell of its centre alone; packets are widened by the largest radius instead (Gribble et al. 2007).
+    ByCenter,
+}
+
+/// What a cell is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Cells {
+    /// 32 bytes: sixteen ids of 2 bytes, newest first (the paper). Needs: at most sixteen spheres in a cell,
+    /// [`Event::CellFull`](crate::event::Event::CellFull), and at most 65,535 in the scene,
+    /// [`Event::TooManyIds`](crate::event::Event::TooManyIds).
+    Queue,
+    /// One list of ids with an offset for each cell.
+    Lists,
+}
+
+/// How a packet goes through its slices and cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Loop {
+    /// Three nested loops (the paper's Figure 3, top).
+    Nested,
+    /// One loop whose step selects among three cases without a branch (Figure 3, bottom), mended.
+    Flattened,
+    /// That loop as it is printed. A known fault: it keeps the first slice's bounds, runs Y innermost, and visits empty
+    /// slices. It is kept to be refuted.
+    Printed,
+}
+
+/// What is done with a sphere of a visited cell before sixteen rays are intersected with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Culling {
+    /// Nothing.
+    None,
+    /// It is dropped if it lies outside one of the frustum's four planes.
+    Planes,
+}
+
+/// What covers the rounding of the tracer's own arithmetic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Margins {
+    /// Nothing (the paper).
+    None,
+    /// The derived ones of [`crate::margin`], [`crate::frustum`], [`crate::cull`] and [`crate::walk`]. Needs: a scene
+    /// in range, [`Event::OutOfRange`](crate::event::Event::OutOfRange).
+    Derived,
+}
+
+/// Cells on each axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Resolution {
+    /// So many on each axis, from 1 to [`MAX_CELLS`](crate::grid::MAX_CELLS). The paper's grid has 16.
+    Fixed(u8),
+    /// Chosen for the scene, at most so many on an axis.
+    UpTo(u8),
+}
+
+/// What happens when a scene breaks a precondition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum OnEvent {
+    /// The tracer goes on as the paper would, and the picture may be wrong.
+    GoOn,
+    /// The next choice whose preconditions hold is taken: box range for eight corners, lists for queues, every sphere a
+    /// candidate where margins state nothing. The picture is right.
+    FallBack,
+    /// The frame is refused.
+    Refuse,
+}
+
+/// Who has the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Sharing {
+    /// One, read by all workers.
+    Shared,
+    /// Each worker builds its own (the paper: every SPU voxelizes the whole scene).
+    Mirrored,
+}
+
+/// One choice for each concern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs, reason = "each field is explained at its type")]
+pub struct Plan {
+    pub voxelizer: Voxelizer,
+    pub cells: Cells,
+    pub walk: Loop,
+    pub culling: Culling,
+    pub margins: Margins,
+    pub form: Form,
+    pub resolution: Resolution,
+    pub on_event: OnEvent,
+    pub sharing: Sharing,
+}
+
+impl Plan {
+    /// The paper to the letter, but for the printed loop ([`Loop::Printed`]), with which hardly any picture is one.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            voxelizer: Voxelizer::EightCorners,
+            cells: Cells::Queue,
+            walk: Loop::Flattened,
+            culling: Culling::Planes,
+            margins: Margins::None,
+            form: Form::Textbook,
+            resolution: Resolution::Fixed(16),
+            on_event: OnEvent::GoOn,
+            sharing: Sharing::Mirrored,
+        }
+    }
+
+    /// The paper with every precondition enforced or mended: its picture is that of the naive tracer of the same
+    /// form, bit for bit, for every scene.
+    #[must_use]
+    pub fn safe() -> Self {
+        Self {
+            voxelizer: Voxelizer::BoxRange,
+            cells: Cells::Lists,
+            walk: Loop::Flattened,
+            culling: Culling::Planes,
+            margins: Margins::Derived,
+            form: Form::Perpendicular,
+            resolution: Resolution::UpTo(32),
+            on_event: OnEvent::FallBack,
+            sharing: Sharing::Shared,
+        }
+    }
+
+    /// Whether the plan promises the naive picture of its form for every scene it does not refuse.
+    #[must_use]
+    pub fn promises_equality(&self) -> bool {
+        self.on_event != OnEvent::GoOn && self.margins == Margins::Derived && self.walk != Loop::Printed
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { voxelizer, cells, walk, culling, margins, form, resolution, on_event, sharing } = self;
+        write!(
+            f,
+            "{voxelizer:?} {cells:?} {walk:?} Culling::{culling:?} Margins::{margins:?} {form:?} {resolution:?} {on_event:?} {sharing:?}"
+        )
+    }
+}
