@@ -384,6 +384,36 @@ fn every_named_scene_is_listed_and_absent_data_is_marked() {
     }
 }
 
+#[test]
+fn a_tracer_without_a_picture_is_not_judged_and_ends_with_3() {
+    let desk = Desk::new();
+    let verify = ["1hvr", "--size", SMALL, "--out", "report"];
+    let said = desk.finish(desk.command(CGT).args(verify).env("CGT_LEVEL", "abacus"));
+    assert_eq!(said.code, 3, "{}{}", said.out, said.err);
+    let report = report(&desk.path("report"));
+    assert_eq!(report["verdict"], "NotJudged");
+    let subjects = report["scenes"][0]["subjects"].as_array().expect("subjects");
+    let verdicts: Vec<_> = subjects.iter().map(|subject| (&subject["name"], &subject["verdict"])).collect();
+    for (name, verdict) in verdicts {
+        assert_eq!(verdict == "NotJudged", name == "grid", "{name}: {verdict}");
+    }
+    let because = subjects.last().and_then(|grid| grid["because"].as_str()).expect("a reason");
+    assert!(because.contains("abacus") && because.ends_with('.'), "{because}");
+    let render = ["render", "1hvr", "x.png", "--method", "grid", "--size", SMALL];
+    let said = desk.finish(desk.command(CGT).args(render).env("CGT_LEVEL", "abacus"));
+    assert_eq!((said.code, said.err.contains("abacus")), (2, true), "{}", said.err);
+    assert!(!desk.path("x.png").exists());
+}
+
+#[test]
+fn the_report_names_the_level_that_was_used() {
+    let desk = Desk::new();
+    let verify = ["1hvr", "--size", SMALL, "--subject", "grid"];
+    let said = desk.finish(desk.command(CGT).args(verify).env("CGT_LEVEL", "scalar"));
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert_eq!(report(&desk.path("cgt-report"))["environment"]["simd"], "scalar");
+}
+
 // ---- places that fail ----
 
 #[cfg(unix)]

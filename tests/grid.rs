@@ -83,7 +83,7 @@ fn the_safe_plan_changes_nothing_anywhere() {
     });
     let stakes = each.flatten_iter().reduce(Stakes::new, sum);
     report(&stakes, &["queue overflows", "spans of three cells"]);
-    assert!(stakes["pictures"] > 500 && stakes["hits"] > 300_000, "too little was at stake: {stakes:?}");
+    assert!(stakes["pictures"] > 500 && stakes["hits"] > 250_000, "too little was at stake: {stakes:?}");
 }
 
 /// Every combination of choices that promises the naive picture.

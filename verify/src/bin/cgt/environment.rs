@@ -7,7 +7,7 @@ pub(crate) fn environment(threads: usize) -> Environment {
         program: concat!("cgt ", env!("CARGO_PKG_VERSION")).into(),
         target: env!("CGT_TARGET").into(),
         cpu: cpu(),
-        simd: "scalar arrays".into(),
+        simd: optimized::Level::best().map_or_else(|error| error.to_string(), |level| level.to_string()),
         rustc: env!("CGT_RUSTC").into(),
         threads,
         date: jiff::Timestamp::now().round(jiff::Unit::Second).unwrap_or_default().to_string(),
