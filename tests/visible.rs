@@ -99,7 +99,10 @@ fn check(plan: Plan, seed: u64, i: u64) -> Checked {
     }
     // Beams at the corners of cells, where walk and slices are closest to a mistake.
     for _ in 0..6 {
-        let target = [0, 1, 2].map(|axis| planes[axis][rng.random_range(0..planes[axis].len())]);
+        let mut target = [0, 1, 2].map(|axis| planes[axis][rng.random_range(0..planes[axis].len())]);
+        // Listed by centre, it is the centre that should come to lie on a plane, a reach away from the ray.
+        let widen = listed.grid.as_ref().map_or(0.0, |grid| grid.widen);
+        target[rng.random_range(0..3usize)] += side(&mut rng) * widen;
         let spread = size * 10f32.powi(rng.random_range(-9..-4));
         let Some(camera) = beam(eye, target, spread, &mut rng) else { continue };
         let (scene, seen) = seen(plan, &spheres, &camera);

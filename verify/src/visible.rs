@@ -199,8 +199,10 @@ impl Packet<'_> {
         let (i, outward) = (rng.random_range(0..3), rng.random::<bool>());
         let mut center = near;
         center[i] = if outward { near[i] + self.farthest } else { near[i] - self.farthest };
+        // Back by an ulp of the distance and one of the centre: either alone may be too small to get anywhere.
+        let step = self.farthest * f32::EPSILON / 2.0;
         while !point.within(center, self.farthest) {
-            center[i] = if outward { center[i].next_down() } else { center[i].next_up() };
+            center[i] = if outward { (center[i] - step).next_down() } else { (center[i] + step).next_up() };
         }
         let planes = &self.grid.axes[i].planes;
         if !(planes[0]..=planes[planes.len() - 1]).contains(&center[i]) {
