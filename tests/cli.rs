@@ -434,9 +434,9 @@ fn a_read_only_place_is_refused_before_anything_is_rendered() {
     }
     for place in places {
         for words in [
-            // So many spheres would take minutes, were the place not looked at first.
-            vec!["uniform:3000000:1".to_owned(), "--out".into(), format!("{place}/report")],
-            vec!["render".into(), "uniform:3000000:1".into(), format!("{place}/x.png")],
+            // Only the look at the place before rendering says it in the words asked for below.
+            vec!["1hvr".to_owned(), "--size".into(), SMALL.into(), "--out".into(), format!("{place}/report")],
+            vec!["render".into(), "1hvr".into(), format!("{place}/x.png"), "--size".into(), SMALL.into()],
         ] {
             let said = desk.run(&words);
             assert_eq!((said.code, said.out.as_str()), (2, ""), "{words:?}: {}", said.err);
