@@ -130,7 +130,7 @@ const REFUSALS: &[Refusal] = &[
     (&["lattice:99999999"], &["the limit is 134217728"]),
     (&["render", "nosuch", "x.png"], &["nosuch"]),
     // Subjects and frames.
-    (&["--subject", "nosuch"], &["nosuch", "naive-f64", "grid"]),
+    (&["--subject", "nosuch"], &["nosuch", "naive-f64", "safe"]),
     (&["--frame", "99"], &["1hvr has frames 0 to 0, not 99"]),
     (&["2juy", "--frame", "24"], &["2juy has frames 0 to 23, not 24"]),
     (&["--frame", "99999999999999999999999"], &["--frame"]),
@@ -318,7 +318,7 @@ fn a_cut_frame_costs_that_frame_only_and_is_said() {
 #[test]
 fn pictures_can_be_decoded() {
     let desk = Desk::new();
-    for (file, method) in [("a.png", "exact"), ("b.PNG", "grid"), ("c.exr", "exact"), ("d.exr", "naive-f64")]
+    for (file, method) in [("a.png", "exact"), ("b.PNG", "safe"), ("c.exr", "exact"), ("d.exr", "naive-f64")]
     {
         let said = desk.run(&["render", "1hvr", file, "--method", method, "--size", SMALL]);
         assert_eq!((said.code, said.out), (0, format!("wrote {file}\n")), "{}", said.err);
@@ -350,7 +350,7 @@ fn help_is_enough_for_a_stranger() {
     let desk = Desk::new();
     let help = desk.run(&["--help"]);
     assert_eq!((help.code, help.err.as_str()), (0, ""));
-    for want in ["Exit codes", "report.html", "cgt scenes", "1hvr", "render", "--size", "--subject", "grid"] {
+    for want in ["Exit codes", "report.html", "cgt scenes", "1hvr", "render", "--size", "--subject", "safe"] {
         assert!(help.out.contains(want), "{want:?} is not in the help");
     }
     for code in 0..=3 {
@@ -395,11 +395,11 @@ fn a_tracer_without_a_picture_is_not_judged_and_ends_with_3() {
     let subjects = report["scenes"][0]["subjects"].as_array().expect("subjects");
     let verdicts: Vec<_> = subjects.iter().map(|subject| (&subject["name"], &subject["verdict"])).collect();
     for (name, verdict) in verdicts {
-        assert_eq!(verdict == "NotJudged", name == "grid", "{name}: {verdict}");
+        assert_eq!(verdict == "NotJudged", name == "safe", "{name}: {verdict}");
     }
     let because = subjects.last().and_then(|grid| grid["because"].as_str()).expect("a reason");
     assert!(because.contains("abacus") && because.ends_with('.'), "{because}");
-    let render = ["render", "1hvr", "x.png", "--method", "grid", "--size", SMALL];
+    let render = ["render", "1hvr", "x.png", "--method", "safe", "--size", SMALL];
     let said = desk.finish(desk.command(CGT).args(render).env("CGT_LEVEL", "abacus"));
     assert_eq!((said.code, said.err.contains("abacus")), (2, true), "{}", said.err);
     assert!(!desk.path("x.png").exists());
@@ -408,7 +408,7 @@ fn a_tracer_without_a_picture_is_not_judged_and_ends_with_3() {
 #[test]
 fn the_report_names_the_level_that_was_used() {
     let desk = Desk::new();
-    let verify = ["1hvr", "--size", SMALL, "--subject", "grid"];
+    let verify = ["1hvr", "--size", SMALL, "--subject", "safe"];
     let said = desk.finish(desk.command(CGT).args(verify).env("CGT_LEVEL", "scalar"));
     assert_eq!(said.code, 0, "{}", said.err);
     assert_eq!(report(&desk.path("cgt-report"))["environment"]["simd"], "scalar");
@@ -455,11 +455,11 @@ fn a_disk_that_fills_up_leaves_nothing_half_written() {
         let script = format!("trap '' XFSZ; ulimit -f 8 && exec \"$0\" {words}");
         desk.finish(desk.command("sh").args(["-c", &script, CGT]))
     };
-    let said = limited("render 1hvr old.exr --size 640x360 --method grid");
+    let said = limited("render 1hvr old.exr --size 640x360 --method safe");
     assert_eq!(said.code, 2, "{}", said.err);
     assert!(said.err.contains("cannot write the") && said.err.contains("`old.exr`"), "{}", said.err);
     assert_eq!(std::fs::read(desk.path("old.exr")).ok().as_deref(), Some(&b"what was there"[..]));
-    let said = limited(&format!("1hvr --size {SMALL} --subject grid --out report"));
+    let said = limited(&format!("1hvr --size {SMALL} --subject safe --out report"));
     assert_eq!((said.code, said.out.as_str()), (2, ""), "{}", said.err);
     for path in files(&desk.path("report")) {
         let whole = image::open(&path).is_ok();
@@ -471,7 +471,7 @@ fn a_disk_that_fills_up_leaves_nothing_half_written() {
 #[test]
 fn a_full_standard_output_is_an_error_and_a_closed_one_is_not() {
     let desk = Desk::new();
-    for words in ["scenes".to_owned(), format!("1hvr --size {SMALL} --subject grid")] {
+    for words in ["scenes".to_owned(), format!("1hvr --size {SMALL} --subject safe")] {
         let said = desk.finish(desk.command("sh").args(["-c", &format!("\"$0\" {words} >/dev/full"), CGT]));
         assert_eq!(said.code, 2, "{words}: {}", said.err);
         assert!(said.err.contains("standard output: No space left"), "{words}: {}", said.err);
@@ -491,7 +491,7 @@ fn ten_million_spheres_are_judged() {
         return;
     }
     let desk = Desk::new();
-    let said = desk.run(&["verify", "uniform:10000000:1", "--size", SMALL, "--subject", "grid"]);
+    let said = desk.run(&["verify", "uniform:10000000:1", "--size", SMALL, "--subject", "safe"]);
     assert_eq!(said.code, 0, "{}{}", said.out, said.err);
     assert_eq!(report(&desk.path("cgt-report"))["scenes"][0]["spheres"], 10_000_000);
 }

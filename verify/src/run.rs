@@ -7,7 +7,7 @@
 use crate::judge::judge;
 use crate::picture::PictureError;
 use crate::report::{Counter, Judge, ScenePictures, SceneReport, SubjectReport};
-use crate::subject::{Naive, Promise, Rounding, Subject, SubjectError};
+use crate::subject::{Naive, Promise, Rendered, Rounding, Subject, SubjectError};
 use crate::verdict::{Comparison, Verdict};
 use contract::{Camera, Image, MISS, Scene};
 use reference::{Arithmetic, Ray, RenderError, Tracer, Undecided};
@@ -76,7 +76,7 @@ pub fn run(
         let seconds = start.elapsed().as_secs_f64();
         let mut report = blank(*subject);
         match rendered {
-            Ok(image) => {
+            Ok(Rendered { image, notes }) => {
                 let twin = naive.for_promise(subject.promise(), frame, threads, progress);
                 let verdict = judge(scene, camera, &truth, &image, subject.promise(), twin);
                 report.seconds = Some(seconds);
@@ -87,6 +87,9 @@ pub fn run(
                     .and_then(|c| account(frame, subject.name(), &truth, &image, c));
                 (report.verdict, report.because) = (verdict.verdict, verdict.because);
                 report.comparison = verdict.comparison;
+                for note in notes {
+                    report.because += &format!(" {note}");
+                }
                 match report.comparison {
                     Some(_) => pictures.add(&truth, &image)?,
                     None => pictures.skip(),
@@ -168,8 +171,9 @@ impl NaivePictures {
         if !self.0.iter().any(|(kept, _)| *kept == rounding) {
             let twin = Naive(rounding);
             let tick = progress(twin.name(), frame.camera.size().height());
-            let image: Result<Image, SubjectError> = twin.render(frame.scene, frame.camera, threads, &*tick);
-            self.0.push((rounding, image.ok()?));
+            let image: Result<Rendered, SubjectError> =
+                twin.render(frame.scene, frame.camera, threads, &*tick);
+            self.0.push((rounding, image.ok()?.image));
         }
         self.0.iter().find(|(kept, _)| *kept == rounding).map(|(_, image)| image)
     }

@@ -1,6 +1,8 @@
 //! What is judged: any tracer that takes a scene and a camera and gives an image, with its promise.
 
 use contract::{Camera, Image, Scene};
+use optimized::plan::Resolution;
+use optimized::{Event, Events, Form, Level, Plan};
 use reference::Arithmetic;
 
 /// What a subject says of its own answers. A judge holds it to that.
@@ -62,10 +64,10 @@ pub type SubjectError = Box<dyn std::error::Error + Send + Sync>;
 /// A tracer under test.
 pub trait Subject: Sync {
     /// Short and unique, for tables and file names.
-    fn name(&self) -> &'static str;
+    fn name(&self) -> &str;
 
     /// One sentence: what it is.
-    fn description(&self) -> &'static str;
+    fn description(&self) -> &str;
 
     /// What it is held to.
     fn promise(&self) -> Promise;
@@ -80,7 +82,16 @@ pub trait Subject: Sync {
         camera: &Camera,
         threads: usize,
         row_done: &(dyn Fn() + Sync),
-    ) -> Result<Image, SubjectError>;
+    ) -> Result<Rendered, SubjectError>;
+}
+
+/// What a subject gives.
+#[derive(Clone, Debug)]
+pub struct Rendered {
+    /// The picture.
+    pub image: Image,
+    /// What the subject itself has to say of it, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// The reference in one of its roundings.
@@ -88,7 +99,7 @@ pub trait Subject: Sync {
 pub struct Naive(pub Rounding);
 
 impl Subject for Naive {
-    fn name(&self) -> &'static str {
+    fn name(&self) -> &str {
         match self.0 {
             Rounding::TextbookF64 => "naive-f64",
             Rounding::TextbookF32 => "naive-f32-textbook",
@@ -96,7 +107,7 @@ impl Subject for Naive {
         }
     }
 
-    fn description(&self) -> &'static str {
+    fn description(&self) -> &str {
         match self.0 {
             Rounding::TextbookF64 => "one loop over all spheres per ray, b² − ac in f64",
             Rounding::TextbookF32 => "one loop over all spheres per ray, b² − ac in f32",
@@ -116,27 +127,85 @@ impl Subject for Naive {
         camera: &Camera,
         threads: usize,
         row_done: &(dyn Fn() + Sync),
-    ) -> Result<Image, SubjectError> {
+    ) -> Result<Rendered, SubjectError> {
         let tracer = reference::Tracer::new(self.0.naive()).threads(threads);
-        Ok(tracer.render_with(scene, camera, row_done)?.image)
+        Ok(Rendered { image: tracer.render_with(scene, camera, row_done)?.image, notes: Vec::new() })
     }
 }
 
-/// The grid tracer of `optimized`.
-#[derive(Clone, Copy, Debug)]
-pub struct Grid;
+/// The plans that have a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NamedPlan {
+    /// [`Plan::paper`].
+    Paper,
+    /// [`Plan::safe`].
+    Safe,
+}
+
+impl NamedPlan {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Safe, Self::Paper];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Safe => "safe",
+        }
+    }
+
+    /// The plan itself.
+    #[must_use]
+    pub fn plan(self) -> Plan {
+        match self {
+            Self::Paper => Plan::paper(),
+            Self::Safe => Plan::safe(),
+        }
+    }
+}
+
+/// The grid tracer of `optimized` with a plan, at a level.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    name: String,
+    description: String,
+    plan: Plan,
+    level: Level,
+}
+
+impl Grid {
+    /// The tracer of a named plan; `cells` on each axis instead of the plan's own choice. Its name carries the level if
+    /// `several` are judged.
+    #[must_use]
+    pub fn new(plan: NamedPlan, level: Level, several: bool, cells: Option<u8>) -> Self {
+        let name = if several { format!("{}@{level}", plan.name()) } else { plan.name().to_owned() };
+        let chosen = plan.plan();
+        let plan = Plan { resolution: cells.map_or(chosen.resolution, Resolution::Fixed), ..chosen };
+        Self {
+            name,
+            description: format!("packets of 4x4 rays through a grid rebuilt for the frame: {plan}"),
+            plan,
+            level,
+        }
+    }
+}
 
 impl Subject for Grid {
-    fn name(&self) -> &'static str {
-        "grid"
+    fn name(&self) -> &str {
+        &self.name
     }
 
-    fn description(&self) -> &'static str {
-        "packets of 4x4 rays through a uniform grid rebuilt for the frame, perpendicular form in f32"
+    fn description(&self) -> &str {
+        &self.description
     }
 
+    /// The paper claims no less: its grid is to lose nothing.
     fn promise(&self) -> Promise {
-        Promise::EqualToNaive(Rounding::PerpendicularF32)
+        Promise::EqualToNaive(match self.plan.form {
+            Form::Textbook => Rounding::TextbookF32,
+            Form::Perpendicular => Rounding::PerpendicularF32,
+        })
     }
 
     fn render(
@@ -145,15 +214,38 @@ impl Subject for Grid {
         camera: &Camera,
         threads: usize,
         row_done: &(dyn Fn() + Sync),
-    ) -> Result<Image, SubjectError> {
-        let tracer =
-            optimized::Tracer::new(optimized::Plan::safe(), optimized::Level::best()?).workers(threads);
+    ) -> Result<Rendered, SubjectError> {
+        let tracer = optimized::Tracer::new(self.plan, self.level).workers(threads);
         let rendering = tracer.render(scene, camera)?;
         (0..camera.size().height()).for_each(|_| row_done());
-        Ok(rendering.image)
+        let counts = rendering.counts;
+        let mut notes = event_notes(&rendering.events);
+        notes.push(format!(
+            "{} cells visited, {} candidates found in them, {} of these culled, {} blocks split.",
+            counts.cells, counts.candidates, counts.culled, counts.split_blocks
+        ));
+        Ok(Rendered { image: rendering.image, notes })
     }
 }
 
-/// Every subject that `cgt verify` judges when none is named, in the order of the report.
-pub static SUBJECTS: [&dyn Subject; 4] =
-    [&Naive(Rounding::TextbookF64), &Naive(Rounding::PerpendicularF32), &Naive(Rounding::TextbookF32), &Grid];
+/// How many of each kind of event there were, and the first of each in full.
+fn event_notes(events: &Events) -> Vec<String> {
+    type Kind = (&'static str, fn(&Event) -> bool);
+    let kinds: [Kind; 4] = [
+        ("pushes onto full queues", |e| matches!(e, Event::CellFull { .. })),
+        ("spheres with more than two cells on an axis", |e| matches!(e, Event::SpansCells { .. })),
+        ("scenes of too many ids", |e| matches!(e, Event::TooManyIds { .. })),
+        ("scenes out of range", |e| matches!(e, Event::OutOfRange)),
+    ];
+    let note = |(what, is): Kind| {
+        let first = events.first().iter().find(|event| is(event))?;
+        let count = events.first().iter().filter(|event| is(event)).count();
+        let more = if events.count() > events.first().len() as u64 { "at least " } else { "" };
+        Some(format!("{more}{count} {what}, the first: {first}."))
+    };
+    kinds.into_iter().filter_map(note).collect()
+}
+
+/// Every naive subject, in the order of the report.
+pub const NAIVE: [Naive; 3] =
+    [Naive(Rounding::TextbookF64), Naive(Rounding::PerpendicularF32), Naive(Rounding::TextbookF32)];

@@ -29,7 +29,7 @@ Exit codes:
 
 Examples:
   cgt                                   judge all tracers on the bundled molecule
-  cgt verify 2juy --frame 3 --subject grid
+  cgt verify 2juy --frame 3 --plan safe
   cgt verify uniform:5000:1 own.pdb     a generated scene and a file
   cgt render sphereflake:4 flake.png --size 800x600
   cgt scenes                            what can be named";
@@ -45,14 +45,27 @@ pub(crate) enum Command {
     Scenes,
 }
 
+const SUBJECTS: [&str; 5] = ["naive-f64", "naive-f32-perpendicular", "naive-f32-textbook", "safe", "paper"];
+const PLANS: [&str; 2] = ["safe", "paper"];
+
 #[derive(Args, Debug)]
 pub(crate) struct Verify {
     /// Scenes: names or generators (see `cgt scenes`), or files; `trajectory.dcd,atoms.pdb` for two
     #[arg(value_name = "SCENE", default_values_t = [verify::scenes::catalogue::DEFAULT.to_owned()])]
     pub(crate) scenes: Vec<String>,
     /// Judge only these tracers
-    #[arg(long = "subject", value_name = "NAME", value_parser = verify::subject::SUBJECTS.map(|s| s.name()))]
+    #[arg(long = "subject", value_name = "NAME", value_parser = SUBJECTS)]
     pub(crate) subjects: Vec<String>,
+    /// Judge only the grid tracer, with these plans: `paper` is the paper to the letter, and known to be wrong
+    #[arg(long = "plan", value_name = "NAME", value_parser = PLANS)]
+    pub(crate) plans: Vec<String>,
+    /// SIMD level of the grid tracer: scalar, sse2, sse4.2, avx2, avx512, …, or `all` this processor has [default: the
+    /// best, or the one that CGT_LEVEL names]
+    #[arg(long, value_name = "LEVEL")]
+    pub(crate) level: Option<String>,
+    /// Cells of the grid on each axis, 1 to 64 [default: 16 for the plan `paper`, chosen for the scene for `safe`]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(1..=64))]
+    pub(crate) grid: Option<u8>,
     /// Folder of the report; files of the same names in it are replaced
     #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
     pub(crate) out: PathBuf,
@@ -85,8 +98,10 @@ pub(crate) enum Method {
     NaiveF32Perpendicular,
     /// One loop over all spheres, textbook form in f32
     NaiveF32Textbook,
-    /// Packets through a grid, perpendicular form in f32
-    Grid,
+    /// Packets through a grid, with the plan `safe`: perpendicular form in f32
+    Safe,
+    /// The same with the plan `paper`: textbook form in f32, spheres lost where cells overflow
+    Paper,
 }
 
 #[derive(Args, Debug)]

@@ -1,13 +1,14 @@
 //! What a report says of the run itself: program, machine, compiler, date, command line.
 
+use optimized::Level;
 use verify::report::Environment;
 
-pub(crate) fn environment(threads: usize) -> Environment {
+pub(crate) fn environment(threads: usize, levels: &[Level]) -> Environment {
     Environment {
         program: concat!("cgt ", env!("CARGO_PKG_VERSION")).into(),
         target: env!("CGT_TARGET").into(),
         cpu: cpu(),
-        simd: optimized::Level::best().map_or_else(|error| error.to_string(), |level| level.to_string()),
+        simd: levels.iter().map(|level| level.name()).collect::<Vec<_>>().join(", "),
         rustc: env!("CGT_RUSTC").into(),
         threads,
         date: jiff::Timestamp::now().round(jiff::Unit::Second).unwrap_or_default().to_string(),

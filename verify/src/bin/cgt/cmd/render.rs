@@ -4,10 +4,11 @@ use super::verify::{load, warn};
 use crate::args::{Method, Render};
 use crate::{Failure, progress, say};
 use contract::Image;
+use optimized::Level;
 use reference::{Arithmetic, Tracer};
 use std::process::ExitCode;
 use verify::picture::{canvas, check_folder, exr, png, write_atomically};
-use verify::subject::{Grid, Naive, Rounding, Subject};
+use verify::subject::{Grid, Naive, NamedPlan, Rounding, Subject};
 
 pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
     let encode: fn(&Image) -> Result<Vec<u8>, Failure> =
@@ -22,7 +23,11 @@ pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
     let camera = loaded.camera(&args.view.framing())?;
     let tick = progress::bar(&args.scene, "render", camera.size().height());
     let threads = args.view.threads();
-    let naive = |rounding| Naive(rounding).render(&scene, &camera, threads, &*tick);
+    let naive = |rounding| Naive(rounding).render(&scene, &camera, threads, &*tick).map(|r| r.image);
+    let grid = |plan| -> Result<Image, Failure> {
+        let subject = Grid::new(plan, Level::best()?, false, None);
+        Ok(subject.render(&scene, &camera, threads, &*tick)?.image)
+    };
     let image = match args.method {
         Method::Exact => {
             Tracer::new(Arithmetic::Exact).threads(threads).render_with(&scene, &camera, &*tick)?.image
@@ -30,7 +35,8 @@ pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
         Method::NaiveF64 => naive(Rounding::TextbookF64)?,
         Method::NaiveF32Perpendicular => naive(Rounding::PerpendicularF32)?,
         Method::NaiveF32Textbook => naive(Rounding::TextbookF32)?,
-        Method::Grid => Grid.render(&scene, &camera, threads, &*tick)?,
+        Method::Safe => grid(NamedPlan::Safe)?,
+        Method::Paper => grid(NamedPlan::Paper)?,
     };
     write_atomically(&args.file, &encode(&image)?)?;
     say(&format!("wrote {}\n", args.file.display()))?;

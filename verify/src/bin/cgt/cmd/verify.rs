@@ -4,6 +4,7 @@ use crate::args::Verify;
 use crate::environment::{environment, quoted};
 use crate::{Failure, progress, say};
 use contract::Scene;
+use optimized::Level;
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 use verify::claims::claims;
@@ -12,12 +13,13 @@ use verify::report::{Absent, Report, SCHEMA_VERSION, overall, text, write};
 use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
 use verify::scenes::read::Loaded;
-use verify::subject::{SUBJECTS, Subject};
+use verify::subject::{Grid, NAIVE, NamedPlan, Subject};
 use verify::verdict::Verdict;
 
 pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
-    let wanted = |s: &&dyn Subject| args.subjects.is_empty() || args.subjects.iter().any(|n| n == s.name());
-    let subjects: Vec<&dyn Subject> = SUBJECTS.into_iter().filter(wanted).collect();
+    let levels = levels(args)?;
+    let owned = subjects(args, &levels);
+    let subjects: Vec<&dyn Subject> = owned.iter().map(AsRef::as_ref).collect();
     check_folder(&args.out)?;
     let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
     for word in &args.scenes {
@@ -44,7 +46,7 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
         schema_version: SCHEMA_VERSION,
         title: format!("Verdict on {}", args.scenes.join(", ")),
         verdict: overall(&scenes),
-        environment: environment(args.view.threads()),
+        environment: environment(args.view.threads(), &levels),
         scenes,
         claims: claims(),
         absent: vec![Absent { judge: "Embree".into(), why: "This version does not ask it.".into() }],
@@ -57,6 +59,34 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
         Verdict::Wrong => ExitCode::from(1),
         Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
     })
+}
+
+/// The levels at which the grid tracer is judged.
+fn levels(args: &Verify) -> Result<Vec<Level>, Failure> {
+    Ok(match args.level.as_deref() {
+        None => vec![Level::best()?],
+        Some("all") => Level::available(),
+        Some(name) => vec![Level::named(name)?],
+    })
+}
+
+/// The naive tracers and the plan `safe`, or those that were asked for.
+fn subjects(args: &Verify, levels: &[Level]) -> Vec<Box<dyn Subject>> {
+    let named = |name: &str| args.subjects.iter().chain(&args.plans).any(|n| n == name);
+    let all = args.subjects.is_empty() && args.plans.is_empty();
+    let mut subjects: Vec<Box<dyn Subject>> = Vec::new();
+    for naive in NAIVE {
+        if all || named(naive.name()) {
+            subjects.push(Box::new(naive));
+        }
+    }
+    for plan in NamedPlan::ALL {
+        if named(plan.name()) || (all && plan == NamedPlan::Safe) {
+            let at = |level: &Level| Grid::new(plan, *level, levels.len() > 1, args.grid);
+            subjects.extend(levels.iter().map(|level| Box::new(at(level)) as Box<dyn Subject>));
+        }
+    }
+    subjects
 }
 
 /// A scene's file or maker, and the frame asked for.
