@@ -3,7 +3,7 @@
 //!
 //! The machine code of this very program is judged, which renders a scene at every level and so holds their doors: the
 //! functions of `fearless_simd` that have an instruction set enabled. A machine operation that is not inlined is a
-//! function of `fearless_simd` of its own; from a door none may be reached, by however many direct calls.
+//! function of `fearless_simd` of its own; from a door none may be reached, by however many calls; calls through values that the program computes are not followed.
 
 #![cfg_attr(not(all(target_arch = "x86_64", target_os = "linux")), allow(unused))]
 
@@ -17,9 +17,9 @@ use optimized::walk::{Cursor, Rectangle, step};
 use optimized::{Form, Level, Plan, Tracer};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Least number of instructions on registers of the door's own width, in the largest door of a level. The frame's
-/// door has about ten times as many.
-const WIDE: usize = 100;
+/// Least number of instructions on registers of the level's own width, in the largest of its doors, which is the frame's.
+/// At AVX-512 it has four times as many; a door that has lost its kernels has none.
+const WIDE: usize = 500;
 
 /// Functions of `fearless_simd` that may be reached from a door, with the reason.
 const ALLOWED: [(&str, &str); 2] = [
@@ -33,8 +33,11 @@ struct Function {
     code: Vec<Instruction>,
 }
 
-/// The functions of this program by their address.
-struct Program(BTreeMap<u64, Function>);
+/// The functions of this program by their address, and where the words in memory point through which it calls some.
+struct Program {
+    functions: BTreeMap<u64, Function>,
+    pointers: BTreeMap<u64, u64>,
+}
 
 impl Program {
     fn read() -> Self {
@@ -50,17 +53,26 @@ impl Program {
             let decoder = Decoder::with_ip(64, code, symbol.address(), DecoderOptions::NONE);
             functions.insert(symbol.address(), Function { name, code: decoder.into_iter().collect() });
         }
-        Self(functions)
+        let relocations = file.dynamic_relocations().into_iter().flatten();
+        let pointers = relocations.map(|(address, to)| (address, to.addend().cast_unsigned())).collect();
+        Self { functions, pointers }
     }
 
     fn named<'a>(&'a self, part: &'a str) -> impl Iterator<Item = (u64, &'a Function)> {
-        self.0.iter().filter(move |(_, f)| f.name.contains(part)).map(|(address, f)| (*address, f))
+        self.functions.iter().filter(move |(_, f)| f.name.contains(part)).map(|(address, f)| (*address, f))
     }
 
-    /// The functions that one calls or jumps to directly.
+    /// The functions that one calls or jumps to, by their address or through a word in memory that does not change.
     fn callees(&self, function: &Function) -> BTreeSet<u64> {
-        let near = function.code.iter().filter(|i| i.op0_kind() == OpKind::NearBranch64);
-        near.map(Instruction::near_branch_target).filter(|target| self.0.contains_key(target)).collect()
+        let target = |i: &Instruction| match i.flow_control() {
+            FlowControl::Next | FlowControl::Return => None,
+            FlowControl::IndirectCall | FlowControl::IndirectBranch if i.is_ip_rel_memory_operand() => {
+                self.pointers.get(&i.ip_rel_memory_address()).copied()
+            }
+            _ => (i.op0_kind() == OpKind::NearBranch64).then(|| i.near_branch_target()),
+        };
+        let targets = function.code.iter().filter_map(target);
+        targets.filter(|target| self.functions.contains_key(target)).collect()
     }
 
     /// What is reached from a function, each with a way to it; doors are reached but not gone through.
@@ -68,7 +80,7 @@ impl Program {
         let mut reached = BTreeMap::new();
         let mut open = vec![(from, Vec::new())];
         while let Some((address, way)) = open.pop() {
-            let function = &self.0[&address];
+            let function = &self.functions[&address];
             if reached.contains_key(&address) {
                 continue;
             }
@@ -244,13 +256,13 @@ fn the_step_is_straight_line() {
     for level in levels {
         let callees = probes.iter().flat_map(|(_, probe)| program.callees(probe));
         let doors: Vec<_> = callees
-            .map(|callee| &program.0[&callee])
+            .map(|callee| &program.functions[&callee])
             .filter(|f| level_of_door(&f.name) == Some(level))
             .collect();
         assert_eq!(doors.len(), 1, "{level}: the probe's door is not found");
         let branches =
             |i: &&Instruction| !matches!(i.flow_control(), FlowControl::Next | FlowControl::Return);
-        let found: Vec<_> = doors[0].code.iter().filter(branches).map(|i| i.mnemonic()).collect();
+        let found: Vec<_> = doors[0].code.iter().filter(branches).map(Instruction::mnemonic).collect();
         let wide = wide(doors[0], level);
         eprintln!("{level}: the step has {} instructions, {wide} of its width", doors[0].code.len());
         assert!(found.is_empty(), "{level}: the step branches: {found:?}");
