@@ -13,8 +13,8 @@
 //!
 //! | | textbook | perpendicular |
 //! |---|---|---|
-//! | AVX2 | 2.14, 2.28 | 4.38, 4.36 |
-//! | AVX-512 | 1.37, 1.37 | 2.24, 2.24 |
+//! | AVX2 | 2.18, 2.31 | 4.41, 4.40 |
+//! | AVX-512 | 1.37, 1.37 | 2.26, 2.25 |
 //!
 //! So the library costs at most 1 %; it needs no unsafe line here, and brings all levels where by hand each is a
 //! machine of its own. What it asks for in return: every closure and function between a door and an operation must be
