@@ -7,12 +7,14 @@ use optimized::{Event, Form, Level, Tracer};
 use rayon::prelude::*;
 use reference::Arithmetic;
 use std::collections::BTreeMap;
+use std::io::Write;
 use verify::matrix::{Case, Matrix};
 
 fn matrix() -> Matrix {
     let matrix = Matrix::new().expect("all data that is there can be read");
     for name in &matrix.absent {
-        eprintln!("not judged: {name}: data absent (run tests/fetch-data)");
+        // Past the capture of output: who runs the tests must see it.
+        _ = writeln!(std::io::stderr(), "not judged: {name}: data absent (run tests/fetch-data)");
     }
     matrix
 }
@@ -81,7 +83,7 @@ fn the_safe_plan_changes_nothing_anywhere() {
     });
     let stakes = each.flatten_iter().reduce(Stakes::new, sum);
     report(&stakes, &["queue overflows", "spans of three cells"]);
-    assert!(stakes["pictures"] > 500 && stakes["hits"] > 300_000, "too little was at stake: {stakes:?}");
+    assert!(stakes["pictures"] > 500 && stakes["hits"] > 250_000, "too little was at stake: {stakes:?}");
 }
 
 /// Every combination of choices that promises the naive picture.

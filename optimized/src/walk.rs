@@ -71,7 +71,7 @@ fn nested<M: Machine>(m: M, slices: &Slices, visitor: &mut impl Visitor<M>) {
                 visitor.visit(s, j, k, true);
             }
         }
-        if !slices.is_empty(s) && !m.again(visitor.unfinished(s), Site::Unfinished) {
+        if !m.again(visitor.unfinished(s), Site::Unfinished) {
             return;
         }
     }
@@ -129,14 +129,13 @@ pub fn step<M: Machine>(m: M, at: Cursor<M>, here: &Rectangle<M>, next: &Rectang
     }
 }
 
-/// The loop as printed: bounds of the first slice for all, j innermost, a visit before any check. With an empty first
-/// range it would run out of the grid; there, and only there, it is kept from that.
+/// The loop as printed: bounds of the first slice for all, j innermost, a visit before any check. (The cells it visits are
+/// those of the grid, since the cell map gives no others.)
 #[inline(always)]
 fn printed<M: Machine>(slices: &Slices, visitor: &mut impl Visitor<M>) {
-    let Some(start) = (0..slices.count).find(|&s| !slices.is_empty(s)) else { return };
-    let [first_j, first_k] = [slices.first[0][start], slices.first[1][start]];
-    let [last_j, last_k] = [slices.last[0][start], slices.last[1][start]];
-    let (mut i, mut j, mut k) = (start, first_j, first_k);
+    let [first_j, first_k] = [slices.first[0][0], slices.first[1][0]];
+    let [last_j, last_k] = [slices.last[0][0], slices.last[1][0]];
+    let (mut i, mut j, mut k) = (0, first_j, first_k);
     while i < slices.count {
         visitor.visit(i, j, k, true);
         if j < last_j {

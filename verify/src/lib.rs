@@ -11,6 +11,7 @@ pub mod subject;
 
 pub mod judge;
 pub mod verdict;
+pub mod visible;
 
 pub mod claims;
 pub mod picture;

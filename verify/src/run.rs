@@ -31,6 +31,8 @@ pub struct Frame<'a> {
     pub frame: [usize; 2],
     /// What its reader had to say.
     pub warnings: &'a [String],
+    /// The command that judges this frame again, with all subjects; empty if there is none.
+    pub replay: &'a str,
 }
 
 /// Why a frame could not be judged at all.
@@ -79,8 +81,10 @@ pub fn run(
                 let verdict = judge(scene, camera, &truth, &image, subject.promise(), twin);
                 report.seconds = Some(seconds);
                 report.rays_per_second = Some(camera.size().pixels() as f64 / seconds);
-                report.first_wrong =
-                    verdict.comparison.as_ref().and_then(|c| account(camera, &truth, &image, c));
+                report.first_wrong = verdict
+                    .comparison
+                    .as_ref()
+                    .and_then(|c| account(frame, subject.name(), &truth, &image, c));
                 (report.verdict, report.because) = (verdict.verdict, verdict.because);
                 report.comparison = verdict.comparison;
                 match report.comparison {
@@ -90,7 +94,7 @@ pub fn run(
                 naive.keep(subject.promise(), subject.name(), image);
             }
             Err(error) => {
-                report.because = format!("gave no picture: {error}");
+                report.because = format!("Gave no picture: {error}.");
                 pictures.skip();
             }
         }
@@ -171,22 +175,33 @@ impl NaivePictures {
     }
 }
 
-/// The first wrong pixel in full: its ray, and both answers, in decimal and in bits.
-fn account(camera: &Camera, truth: &Image, subject: &Image, comparison: &Comparison) -> Option<String> {
+/// The first wrong pixel in full, one thing a line: its ray and both answers, in decimal and in bits, and the
+/// command that comes to it again.
+fn account(
+    frame: &Frame<'_>,
+    name: &str,
+    truth: &Image,
+    subject: &Image,
+    comparison: &Comparison,
+) -> Option<String> {
     let [x, y] = comparison.first_wrong?;
     let i = y as usize * truth.size.width() as usize + x as usize;
-    let ray = Ray::of_pixel(camera, x, y);
+    let ray = Ray::of_pixel(frame.camera, x, y);
     let number = |x: f32| format!("{x:?} (0x{:08x})", x.to_bits());
     let vector = |v: [f32; 3]| v.map(number).join(", ");
     let answer = |image: &Image| match image.ids[i] {
         MISS => "a miss".into(),
         id => format!("sphere {id} at t = {}, colour {:?}", number(image.t[i]), &image.rgba[i][..3]),
     };
-    Some(format!(
-        "pixel ({x}, {y}): eye {}; direction {}; truth: {}; subject: {}",
+    let mut text = format!(
+        "pixel      ({x}, {y})\neye        {}\ndirection  {}\ntruth      {}\nsubject    {}",
         vector(ray.eye),
         vector(ray.dir),
         answer(truth),
         answer(subject),
-    ))
+    );
+    if !frame.replay.is_empty() {
+        text += &format!("\nreplay     {} --subject {name}", frame.replay);
+    }
+    Some(text)
 }

@@ -39,22 +39,26 @@ pub fn judge(
 ) -> Judgement {
     let mut comparison = match compare(truth, subject) {
         Ok(comparison) => comparison,
-        Err(shapeless) => return wrong(None, shapeless.to_string()),
+        Err(shapeless) => return wrong(None, format!("The pictures cannot be compared: {shapeless}.")),
     };
     let equal = comparison.wrong_ids + comparison.wrong_t + comparison.wrong_color == 0;
     let rounding = match promise {
-        Promise::Exact if equal => return judgement(Verdict::Equal, comparison, "equal bit for bit"),
-        Promise::Exact => return wrong(Some(comparison), "differs where it promised not to".into()),
+        Promise::Exact if equal => {
+            return judgement(Verdict::Equal, comparison, "Equal to the truth, bit for bit.");
+        }
+        Promise::Exact => return wrong(Some(comparison), "Differs where it promised not to.".into()),
         Promise::Rounded(rounding) => rounding,
         Promise::EqualToNaive(rounding) => {
             let twin = naive.map(|naive| compare(naive, subject));
             match twin {
-                None => return judgement(Verdict::NotJudged, comparison, "the naive picture is missing"),
-                Some(Err(shapeless)) => return wrong(Some(comparison), shapeless.to_string()),
+                None => return judgement(Verdict::NotJudged, comparison, "The naive picture is missing."),
+                Some(Err(shapeless)) => {
+                    return wrong(Some(comparison), format!("The pictures cannot be compared: {shapeless}."));
+                }
                 Some(Ok(twin)) if twin.first_wrong.is_some() => {
                     let [x, y] = twin.first_wrong.unwrap_or_default();
                     let text = format!(
-                        "{} pixels differ from the naive picture of the same form, first at ({x}, {y})",
+                        "{} pixels differ from the naive picture of the same form, first at ({x}, {y}).",
                         twin.wrong_ids + twin.wrong_t.max(twin.wrong_color),
                     );
                     return wrong(Some(comparison), text);
@@ -65,20 +69,20 @@ pub fn judge(
     };
     explain(scene, camera, truth, subject, rounding, &mut comparison);
     let as_naive = match promise {
-        Promise::EqualToNaive(_) => "bit for bit the naive picture; ",
+        Promise::EqualToNaive(_) => "Bit for bit the naive picture. ",
         _ => "",
     };
     if comparison.unexplained > 0 {
         let text =
-            format!("{as_naive}{} pixels are wrong beyond what rounding explains", comparison.unexplained);
+            format!("{as_naive}{} pixels are wrong beyond what rounding explains.", comparison.unexplained);
         wrong(Some(comparison), text)
     } else if comparison.undecidable > 0 {
-        let text = format!("{as_naive}{} pixels lie beyond the form's range", comparison.undecidable);
+        let text = format!("{as_naive}{} pixels lie beyond the form's range.", comparison.undecidable);
         judgement(Verdict::Undecidable, comparison, &text)
     } else if equal {
-        judgement(Verdict::Equal, comparison, &format!("{as_naive}equal to the truth bit for bit"))
+        judgement(Verdict::Equal, comparison, &format!("{as_naive}Equal to the truth, bit for bit."))
     } else {
-        let text = format!("{as_naive}rounding explains every difference from the truth");
+        let text = format!("{as_naive}Rounding explains every difference from the truth.");
         judgement(Verdict::WithinBound, comparison, &text)
     }
 }

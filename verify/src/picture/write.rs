@@ -25,6 +25,15 @@ pub enum WriteError {
         #[source]
         cause: std::io::Error,
     },
+    /// Nothing can be written into a folder: it or one above it is read-only or no folder.
+    #[error("cannot write into the folder `{}`: {cause}", folder.display())]
+    Unwritable {
+        /// As given.
+        folder: PathBuf,
+        /// What the system says.
+        #[source]
+        cause: std::io::Error,
+    },
     /// The bytes did not all reach the disk: it is full, or a quota is.
     #[error("cannot write the {bytes} bytes of `{}`: {cause}", path.display())]
     Bytes {
@@ -58,12 +67,34 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     }
     // The parent of a bare name is the empty path, which means the current folder but cannot be opened.
     let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = temporary(folder).map_err(|cause| WriteError::Folder { path: at(), cause })?;
+    let mut file =
+        temporary(folder).map_err(|cause| WriteError::Folder { path: at(), cause: bare(cause) })?;
     // Some file systems tell of a full disk only when the bytes must reach it.
     let written = file.write_all(bytes).and_then(|()| file.as_file().sync_all());
     written.map_err(|cause| WriteError::Bytes { path: at(), bytes: bytes.len(), cause })?;
     file.persist(path).map_err(|failed| WriteError::Place { path: at(), cause: failed.error })?;
     Ok(())
+}
+
+/// Whether files could be made in that folder or, where it is missing, in the nearest one above it. To be asked
+/// before minutes are spent on what is to be written there; it changes nothing, and promises nothing.
+///
+/// # Errors
+/// [`WriteError::Unwritable`] with what the system says.
+pub fn check_folder(folder: &Path) -> Result<(), WriteError> {
+    let there = folder.ancestors().find(|above| above.as_os_str().is_empty() || above.exists());
+    let there = there.filter(|above| !above.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let refused = |cause| WriteError::Unwritable { folder: folder.into(), cause: bare(cause) };
+    temporary(there).map(drop).map_err(refused)
+}
+
+/// The system's error without the name of the temporary file, which `tempfile` adds and which says nothing to a
+/// person. It hands out the original only as text.
+fn bare(error: std::io::Error) -> std::io::Error {
+    match error.to_string().split_once(" at path ") {
+        Some((said, _)) => std::io::Error::new(error.kind(), said),
+        None => error,
+    }
 }
 
 /// Temporary files are private unless told otherwise; a report is as readable as the umask lets it be.

@@ -14,8 +14,8 @@ pub const TEXT_WIDTH: usize = 100;
 /// Columns of the table: heading and the most it may take. With one space between them and two for the margin
 /// the whole is within [`TEXT_WIDTH`].
 const COLUMNS: [(&str, usize); 8] = [
-    ("scene", 20),
-    ("subject", 20),
+    ("scene", 18),
+    ("subject", 23),
     ("verdict", 14),
     ("ids", 7),
     ("t", 8),

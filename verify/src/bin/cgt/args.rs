@@ -1,17 +1,17 @@
 //! The command line.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use contract::Size;
 use std::path::PathBuf;
 use verify::scenes::frame::Framing;
 
-/// Judge sphere tracers against exact arithmetic.
+/// Judge tracers of sphere scenes against exact arithmetic.
 ///
-/// Without a subcommand `cgt` verifies: it renders the scenes (the bundled molecule 1HVR if none is named)
-/// exactly and with every tracer under test, compares pixel by pixel, prints a verdict and writes
-/// `cgt-report/report.html`.
+/// Without a subcommand `cgt` verifies: it renders each scene (the bundled molecule 1HVR if none is named)
+/// exactly and with every tracer under test, compares the pictures pixel by pixel, prints a verdict and writes
+/// a report that opens offline, `cgt-report/report.html`, with the same data in `report.json` beside it.
 #[derive(Debug, Parser)]
-#[command(version, args_conflicts_with_subcommands = true, after_help = CODES)]
+#[command(name = "cgt", version, args_conflicts_with_subcommands = true, after_help = CODES)]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
@@ -19,13 +19,27 @@ pub(crate) struct Cli {
     pub(crate) verify: Verify,
 }
 
-const CODES: &str = "Exit codes: 0 all agree, 1 a mismatch, 2 bad input or usage, 3 something needed for a verdict is missing";
+const CODES: &str = "\
+Exit codes:
+  0  every tracer keeps its promise: its picture equals the exact one, or every difference is one
+     that rounding in its arithmetic explains
+  1  a mismatch: at least one pixel is wrong beyond that
+  2  bad input or usage; nothing was judged
+  3  no verdict: something needed for it is missing, or lies outside what a tracer states
+
+Examples:
+  cgt                                   judge all tracers on the bundled molecule
+  cgt verify 2juy --frame 3 --subject grid
+  cgt verify uniform:5000:1 own.pdb     a generated scene and a file
+  cgt render sphereflake:4 flake.png --size 800x600
+  cgt scenes                            what can be named";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Judge tracers on scenes and write a report (the default)
     Verify(Verify),
-    /// Render one scene to a PNG or `OpenEXR` file
+    #[allow(clippy::doc_markdown, reason = "shown to people as it stands")]
+    /// Render one scene to a PNG or OpenEXR file
     Render(Render),
     /// List the scenes that have names, and the formats that are read
     Scenes,
@@ -39,7 +53,7 @@ pub(crate) struct Verify {
     /// Judge only these tracers
     #[arg(long = "subject", value_name = "NAME", value_parser = verify::subject::SUBJECTS.map(|s| s.name()))]
     pub(crate) subjects: Vec<String>,
-    /// Folder of the report; files of an earlier report in it are replaced
+    /// Folder of the report; files of the same names in it are replaced
     #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
     pub(crate) out: PathBuf,
     #[command(flatten)]
@@ -95,9 +109,9 @@ pub(crate) struct View {
     /// Frame of an animation, counted from 0
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) frame: usize,
-    /// Threads; 0 is one a core
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) threads: usize,
+    /// Threads, at most 1024; 0 is one a core
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u16).range(..=1024))]
+    pub(crate) threads: u16,
 }
 
 impl View {
@@ -106,11 +120,31 @@ impl View {
         Framing { eye: self.eye, target: self.target, up: self.up, fov: self.fov, size: self.size }
     }
 
+    /// What of it was said, as words of a command line. Decimals are the shortest that read back the same.
+    pub(crate) fn words(&self) -> String {
+        let mut words = String::new();
+        if let Some(size) = self.size {
+            words += &format!(" --size {}x{}", size.width(), size.height());
+        }
+        for (name, vector) in [("eye", self.eye), ("target", self.target), ("up", self.up)] {
+            if let Some([x, y, z]) = vector {
+                words += &format!(" --{name} {x:?},{y:?},{z:?}");
+            }
+        }
+        if let Some(fov) = self.fov {
+            words += &format!(" --fov {fov:?}");
+        }
+        if self.frame != 0 {
+            words += &format!(" --frame {}", self.frame);
+        }
+        words
+    }
+
     /// Threads as a number above 0.
     pub(crate) fn threads(&self) -> usize {
         match self.threads {
             0 => std::thread::available_parallelism().map_or(1, std::num::NonZero::get),
-            n => n,
+            n => n.into(),
         }
     }
 }

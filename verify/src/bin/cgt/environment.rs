@@ -7,7 +7,7 @@ pub(crate) fn environment(threads: usize) -> Environment {
         program: concat!("cgt ", env!("CARGO_PKG_VERSION")).into(),
         target: env!("CGT_TARGET").into(),
         cpu: cpu(),
-        simd: "scalar arrays".into(),
+        simd: optimized::Level::best().map_or_else(|error| error.to_string(), |level| level.to_string()),
         rustc: env!("CGT_RUSTC").into(),
         threads,
         date: jiff::Timestamp::now().round(jiff::Unit::Second).unwrap_or_default().to_string(),
@@ -23,16 +23,18 @@ fn cpu() -> Option<String> {
     Some(line.split_once(':')?.1.trim().to_owned())
 }
 
+/// A word as it can be typed into a shell.
+pub(crate) fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
 /// The command line with the program's bare name, fit to be typed again.
 fn command_line() -> String {
-    let quoted = |word: String| {
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,:=+".contains(c);
-        if !word.is_empty() && word.chars().all(plain) {
-            word
-        } else {
-            format!("'{}'", word.replace('\'', "'\\''"))
-        }
-    };
-    let words = std::env::args_os().skip(1).map(|word| quoted(word.to_string_lossy().into_owned()));
+    let words = std::env::args_os().skip(1).map(|word| quoted(&word.to_string_lossy()));
     std::iter::once("cgt".to_owned()).chain(words).collect::<Vec<_>>().join(" ")
 }

@@ -9,7 +9,7 @@ mod progress;
 
 use args::{Cli, Command};
 use clap::Parser;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 /// Any error that ends the program with code 2.
@@ -39,7 +39,13 @@ fn main() -> ExitCode {
     })
 }
 
-/// Prints to standard output; a reader that has gone away is no error.
-fn say(text: &str) {
-    _ = std::io::stdout().write_all(text.as_bytes());
+/// Prints to standard output. A reader that has gone away is no error; a full disk is.
+fn say(text: &str) -> Result<(), Failure> {
+    let mut out = std::io::stdout();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(format!("standard output: {error}").into())
+        }
+        _ => Ok(()),
+    }
 }

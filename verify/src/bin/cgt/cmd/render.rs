@@ -6,7 +6,7 @@ use crate::{Failure, progress, say};
 use contract::Image;
 use reference::{Arithmetic, Tracer};
 use std::process::ExitCode;
-use verify::picture::{canvas, exr, png, write_atomically};
+use verify::picture::{canvas, check_folder, exr, png, write_atomically};
 use verify::subject::{Grid, Naive, Rounding, Subject};
 
 pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
@@ -16,8 +16,9 @@ pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
             Some("exr") => |image| Ok(exr(image)?),
             _ => return Err(format!("`{}` ends neither in .png nor in .exr", args.file.display()).into()),
         };
+    check_folder(args.file.parent().unwrap_or(&args.file))?;
     let (loaded, scene) = load(&args.scene, args.view.frame)?;
-    warn(&args.scene, &loaded);
+    warn(&loaded);
     let camera = loaded.camera(&args.view.framing())?;
     let tick = progress::bar(&args.scene, "render", camera.size().height());
     let threads = args.view.threads();
@@ -32,6 +33,6 @@ pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
         Method::Grid => Grid.render(&scene, &camera, threads, &*tick)?,
     };
     write_atomically(&args.file, &encode(&image)?)?;
-    say(&format!("wrote {}\n", args.file.display()));
+    say(&format!("wrote {}\n", args.file.display()))?;
     Ok(ExitCode::SUCCESS)
 }

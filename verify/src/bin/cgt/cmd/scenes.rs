@@ -14,12 +14,12 @@ pub(crate) fn scenes() -> Result<ExitCode, Failure> {
             scene.name, scene.what, "", scene.provenance
         );
     }
-    say(&text);
-    say(&format!(
+    text += &format!(
         "\nspheres x frames. What is absent is brought by {FETCH}.\n\
          Generators: sphereflake:LEVELS  uniform:COUNT:SEED  clump:COUNT:SEED  lattice:SIDE\n\
-         Files: .pdb .xyz .dcd .xtc .nff .lammpstrj .json, each also as .gz; \
+         Files: .pdb .xyz .dcd .xtc .nff .lammpstrj .json .inc, each also as .gz; \
          trajectory,atoms for .dcd and .xtc\n"
-    ));
+    );
+    say(&text)?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,12 +1,13 @@
 //! `cgt verify`: scenes in, verdicts on the terminal and a report folder out.
 
 use crate::args::Verify;
-use crate::environment::environment;
+use crate::environment::{environment, quoted};
 use crate::{Failure, progress, say};
 use contract::Scene;
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 use verify::claims::claims;
+use verify::picture::check_folder;
 use verify::report::{Absent, Report, SCHEMA_VERSION, overall, text, write};
 use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
@@ -17,10 +18,11 @@ use verify::verdict::Verdict;
 pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     let wanted = |s: &&dyn Subject| args.subjects.is_empty() || args.subjects.iter().any(|n| n == s.name());
     let subjects: Vec<&dyn Subject> = SUBJECTS.into_iter().filter(wanted).collect();
+    check_folder(&args.out)?;
     let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
     for word in &args.scenes {
         let (loaded, scene) = load(word, args.view.frame)?;
-        warn(word, &loaded);
+        warn(&loaded);
         let (description, provenance) = about(word);
         let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
         let frame = Frame {
@@ -31,6 +33,7 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
             camera: &loaded.camera(&args.view.framing())?,
             frame: [args.view.frame, loaded.animation.frames().len()],
             warnings: &warnings,
+            replay: &format!("cgt verify {}{}", quoted(word), args.view.words()),
         };
         let (report, set) =
             run(&frame, &subjects, args.view.threads(), &|what, rows| progress::bar(word, what, rows))?;
@@ -44,11 +47,11 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
         environment: environment(args.view.threads()),
         scenes,
         claims: claims(),
-        absent: vec![Absent { judge: "Embree".into(), why: "this version does not ask it".into() }],
+        absent: vec![Absent { judge: "Embree".into(), why: "This version does not ask it.".into() }],
     };
     let paths = write(&args.out, &report, &pictures)?;
-    say(&text(&report, std::io::stdout().is_terminal()));
-    say(&format!("report: {}\n", paths.html.display()));
+    let verdict = text(&report, std::io::stdout().is_terminal());
+    say(&format!("{verdict}report: {}\n", paths.html.display()))?;
     Ok(match report.verdict {
         Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
         Verdict::Wrong => ExitCode::from(1),
@@ -68,9 +71,9 @@ pub(crate) fn load(word: &str, frame: usize) -> Result<(Loaded, Scene), Failure>
 }
 
 /// What a reader passed over goes to standard error.
-pub(crate) fn warn(word: &str, loaded: &Loaded) {
+pub(crate) fn warn(loaded: &Loaded) {
     for warning in &loaded.warnings {
-        _ = writeln!(std::io::stderr(), "{word}: {warning}");
+        _ = writeln!(std::io::stderr(), "warning: {warning}");
     }
 }
 

@@ -1,0 +1,497 @@
+//! Does the program do what a person at a terminal relies on: exit codes, messages, files, numbers?
+//!
+//! Each case runs `cgt` as a process in a folder of its own. In every one of them a panic is a failure, and so is a
+//! file that is half written.
+
+use serde_json::Value;
+use std::ffi::OsStr;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+
+const CGT: &str = env!("CARGO_BIN_EXE_cgt");
+const SMALL: &str = "64x36";
+
+/// A folder to run in, with the files that cases speak of.
+struct Desk(TempDir);
+
+struct Said {
+    code: i32,
+    out: String,
+    err: String,
+}
+
+impl Desk {
+    fn new() -> Self {
+        let desk = Self(tempfile::tempdir().expect("a temporary folder"));
+        let dump = |radius| {
+            format!(
+                "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n0 1\n\
+                 ITEM: ATOMS id type x y z radius\n1 1 0 0 0 {radius}\n"
+            )
+        };
+        let number = |x: f32| format!("{{\"dec\": {x:?}, \"bits\": \"{:08x}\"}}", x.to_bits());
+        let (zero, light) = (number(0.0), number(1.0));
+        let json = format!(
+            "{{\"format\": \"cgt-scene\", \"version\": 1, \"frames\": [{{\"background\": [0, 0, 0], \
+             \"light\": [{zero}, {zero}, {light}], \"spheres\": [{{\"center\": [{zero}, {zero}, {zero}], \
+             \"radius\": {zero}, \"color\": [1, 2, 3]}}]}}]}}"
+        );
+        for (name, bytes) in [
+            ("empty.pdb", Vec::new()),
+            ("binary.pdb", vec![0x7f, b'E', b'L', b'F', 2, 1, 1, 0, 0, 0]),
+            ("nan.xyz", b"1\nwater\nO nan 0 0\n".to_vec()),
+            ("negative.lammpstrj", dump("-1").into_bytes()),
+            ("none.lammpstrj", dump("0").into_bytes()),
+            ("zero.json", json.into_bytes()),
+            ("cut.xyz", b"2\none\nC 0 0 0\nO 1 0 0\n2\ntwo\nC 0 0 0\n".to_vec()),
+            ("two words.xyz", b"1\nx\nC 0 0 0\n".to_vec()),
+            ("notes.txt", b"not a scene".to_vec()),
+            ("file", b"in the way".to_vec()),
+        ] {
+            std::fs::write(desk.path(name), bytes).expect("a file is written");
+        }
+        std::fs::create_dir(desk.path("no-data")).expect("a folder is made");
+        desk
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn run<S: AsRef<OsStr>>(&self, words: &[S]) -> Said {
+        self.finish(self.command(CGT).args(words))
+    }
+
+    /// A program that finds no fetched data.
+    fn command(&self, program: &str) -> Command {
+        let mut command = Command::new(program);
+        command.current_dir(self.0.path()).env("CGT_DATA", self.path("no-data")).stdin(Stdio::null());
+        command
+    }
+
+    /// Runs it; whatever it was, it must not have panicked and must have left no part of a file.
+    fn finish(&self, command: &mut Command) -> Said {
+        let Output { status, stdout, stderr } = command.output().expect("the program starts");
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("it speaks UTF-8");
+        let (out, err) = (text(stdout), text(stderr));
+        let code = status.code().unwrap_or_else(|| panic!("{command:?}: ended by {status}\n{err}"));
+        assert!(code != 101 && !err.contains("panicked"), "{command:?}: panicked\n{err}");
+        let parts: Vec<_> = files(self.0.path()).into_iter().filter(|p| name(p).contains(".part")).collect();
+        assert!(parts.is_empty(), "{command:?}: left {parts:?}");
+        Said { code, out, err }
+    }
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// All files under a folder.
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
+}
+
+fn report(folder: &Path) -> Value {
+    let text = std::fs::read_to_string(folder.join("report.json")).expect("there is a report.json");
+    serde_json::from_str(&text).expect("it is JSON")
+}
+
+// ---- what is refused ----
+
+/// Words, exit code, and what standard error must say.
+type Refusal = (&'static [&'static str], &'static [&'static str]);
+
+/// All of these end with code 2, print nothing on standard output, and write nothing.
+const REFUSALS: &[Refusal] = &[
+    // Scenes.
+    (&["nosuch"], &["nosuch", "1hvr", "sphereflake:LEVELS"]),
+    (&[""], &["\"\" is no scene"]),
+    (&["nosuch.pdb"], &["nosuch.pdb: No such file"]),
+    (&["no/such"], &["no/such"]),
+    (&["."], &["."]),
+    (&["notes.txt"], &["notes.txt", "\"txt\"", ".pdb"]),
+    (&["adk"], &["the data of adk is absent", "tests/fetch-data"]),
+    (&["1hvr", "teapot"], &["the data of teapot is absent", "tests/fetch-data"]),
+    (&["empty.pdb"], &["empty.pdb: is empty"]),
+    (&["binary.pdb"], &["binary.pdb", "no text"]),
+    (&["nan.xyz"], &["nan.xyz:3:3", "x is \"nan\"", "finite"]),
+    (&["negative.lammpstrj"], &["negative.lammpstrj:10:11", "radius is \"-1\"", "above 0"]),
+    (&["none.lammpstrj"], &["none.lammpstrj:10:11", "radius is \"0\"", "above 0"]),
+    (&["zero.json"], &["zero.json:1:", "radius 0.0 is not above 0"]),
+    (&["uniform:99999999999:1"], &["99999999999 spheres", "the limit is 134217728"]),
+    (&["uniform:18446744073709551616:1"], &["18446744073709551616", "a whole number"]),
+    (&["uniform:-1:1"], &["count is \"-1\""]),
+    (&["uniform:10:1:7"], &["end is \"7\""]),
+    (&["uniform"], &["count is \"\""]),
+    (&["sphereflake:99"], &["the limit is 134217728"]),
+    (&["lattice:99999999"], &["the limit is 134217728"]),
+    (&["render", "nosuch", "x.png"], &["nosuch"]),
+    // Subjects and frames.
+    (&["--subject", "nosuch"], &["nosuch", "naive-f64", "grid"]),
+    (&["--frame", "99"], &["1hvr has frames 0 to 0, not 99"]),
+    (&["2juy", "--frame", "24"], &["2juy has frames 0 to 23, not 24"]),
+    (&["--frame", "99999999999999999999999"], &["--frame"]),
+    (&["--threads", "1025"], &["--threads", "1024"]),
+    // Pictures and cameras.
+    (&["--size", "0x0"], &["0x0", "no pixel"]),
+    (&["--size", "1x0"], &["1x0", "no pixel"]),
+    (&["--size", "100000x100000"], &["100000x100000", "too large", "16384"]),
+    (&["--size", "16384x16384"], &["16384x16384", "too large"]),
+    (&["--size", "99999999999x1"], &["99999999999"]),
+    (&["--size", "abc"], &["abc", "WIDTHxHEIGHT"]),
+    (&["--size", "axb"], &["`a`"]),
+    (&["--fov", "400"], &["400", "below 179"]),
+    (&["--fov", "0"], &["above 0.001"]),
+    (&["--fov", "NaN"], &["NaN"]),
+    (&["--eye", "1,2,3", "--target", "1,2,3"], &["the eye and what it looks at are both [1.0, 2.0, 3.0]"]),
+    (&["--eye", "0,0,nan"], &["NaN", "finite"]),
+    (&["--eye", "0,0,1e999"], &["inf", "finite"]),
+    (&["--eye", "1,2"], &["expected 3 numbers X,Y,Z, got 2"]),
+    // Places.
+    (&["--out", "file"], &["`file`", "Not a directory"]),
+    (&["--out", "file/below"], &["`file/below`", "Not a directory"]),
+    (&["--out", ""], &["--out"]),
+    (&["render", "1hvr", "file/x.png"], &["`file`", "Not a directory"]),
+    (&["render", "1hvr", "missing/x.png"], &["missing"]),
+    (&["render", "1hvr", "x.jpg"], &["`x.jpg`", ".png", ".exr"]),
+    (&["render", "1hvr", "x"], &["`x`", ".png", ".exr"]),
+    (&["render", "1hvr", ""], &["<FILE>"]),
+    // Usage.
+    (&["render"], &["<SCENE>", "<FILE>"]),
+    (&["--nosuch"], &["--nosuch", "--help"]),
+    (&["--size", SMALL, "scenes"], &["scenes"]),
+];
+
+#[test]
+fn what_is_wrong_is_said_and_ends_with_2() {
+    let desk = Desk::new();
+    let before = files(desk.0.path());
+    for (words, wanted) in REFUSALS {
+        let said = desk.run(words);
+        assert_eq!(said.code, 2, "{words:?}: {}{}", said.out, said.err);
+        assert_eq!(said.out, "", "{words:?}: a refusal belongs on standard error");
+        for want in *wanted {
+            assert!(said.err.contains(want), "{words:?}: {want:?} is not said in\n{}", said.err);
+        }
+        assert_told_once(words, &said.err);
+        assert_eq!(files(desk.0.path()), before, "{words:?}: something was written");
+    }
+}
+
+/// No cause is told twice, no name of a temporary file is told at all.
+fn assert_told_once(words: &[&str], err: &str) {
+    let lines: Vec<_> = err.lines().filter(|line| !line.trim().is_empty()).collect();
+    let mut sorted = lines.clone();
+    sorted.sort_unstable();
+    sorted.dedup();
+    assert_eq!(sorted.len(), lines.len(), "{words:?}: a line comes twice in\n{err}");
+    assert!(err.matches("os error").count() <= 1, "{words:?}: the system is quoted twice in\n{err}");
+    assert!(!err.contains(".cgt-"), "{words:?}: a temporary file is named in\n{err}");
+}
+
+// ---- what succeeds ----
+
+#[test]
+fn without_a_subcommand_it_verifies_the_bundled_molecule() {
+    let desk = Desk::new();
+    let said = desk.run(&["--size", SMALL, "--out", "report"]);
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    assert_eq!(said.err, "", "nothing to warn of, and no bar where there is no terminal");
+    let report = report(&desk.path("report"));
+    assert_eq!(report["schema_version"], 1);
+    assert_eq!(report["verdict"], "WithinBound");
+    assert_eq!(report["environment"]["command_line"], format!("cgt --size {SMALL} --out report"));
+    assert_eq!([&report["scenes"][0]["width"], &report["scenes"][0]["height"]], [64, 36]);
+    assert_eq!(report["scenes"][0]["spheres"], 1_890);
+    let page = std::fs::read_to_string(desk.path("report/report.html")).expect("a page");
+    assert!(page.trim_end().ends_with("</html>"), "the page is whole");
+    assert!(said.out.contains("report: report/report.html"), "{}", said.out);
+    assert_table_agrees(&said.out, &report);
+    let explicit = desk.run(&["verify", "1hvr", "--size", SMALL, "--out", "again"]);
+    assert_eq!(
+        without_times(&said.out, "report"),
+        without_times(&explicit.out, "again"),
+        "`verify` is the default"
+    );
+}
+
+/// Every subject has one line with the report's numbers in it; the last line but one is the verdict.
+fn assert_table_agrees(out: &str, report: &Value) {
+    let mut judged = 0;
+    for scene in report["scenes"].as_array().expect("scenes") {
+        for subject in scene["subjects"].as_array().expect("subjects") {
+            let comparison = &subject["comparison"];
+            let counts = [&comparison["wrong_ids"], &comparison["wrong_t"], &comparison["wrong_color"]];
+            let numbers = counts.map(|n| n.as_u64().expect("a count").to_string()).to_vec();
+            let name = subject["name"].as_str().expect("a name");
+            let line = out.lines().find(|line| line.split_whitespace().any(|word| word == name));
+            let line = line.unwrap_or_else(|| panic!("{name} has no line in\n{out}"));
+            // Thousands are set apart by narrow spaces, which split_ascii_whitespace does not split.
+            let words: Vec<String> =
+                line.split_ascii_whitespace().map(|w| w.replace('\u{202f}', "")).collect();
+            let found = words.windows(numbers.len()).any(|window| window == numbers);
+            assert!(found, "{name}: {numbers:?} are not in {line:?}");
+            let verdict = subject["verdict"].as_str().expect("a verdict");
+            assert!(words.concat().to_lowercase().contains(&verdict.to_lowercase()), "{verdict}: {line}");
+            assert!(
+                subject["because"].as_str().expect("a reason").ends_with('.'),
+                "{name}: a whole sentence"
+            );
+            judged += 1;
+        }
+    }
+    assert!(judged > 0, "nothing was judged");
+}
+
+/// The output without the column of speeds and the place of the report.
+fn without_times(out: &str, folder: &str) -> Vec<String> {
+    let table = out.replace(&format!("report: {folder}/"), "report: ");
+    let fixed = |line: &str| match line.split_ascii_whitespace().count() {
+        9.. => line.trim_end().rsplit_once(' ').map_or(line, |(rest, _)| rest).trim_end().to_owned(),
+        _ => line.to_owned(),
+    };
+    table.lines().skip(1).map(fixed).collect()
+}
+
+#[test]
+fn every_kind_of_scene_is_judged_and_agrees() {
+    let desk = Desk::new();
+    let scenes =
+        ["2juy", "sphereflake:1", "sphereflake:3", "uniform:0", "uniform:1:1", "lattice:10", "clump:500:3"];
+    let said = desk.run(&[&scenes[..], &["--size", SMALL]].concat());
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    let report = report(&desk.path("cgt-report"));
+    let names: Vec<_> = report["scenes"].as_array().expect("scenes").iter().map(|s| &s["name"]).collect();
+    assert_eq!(names, scenes);
+    for (scene, name) in report["scenes"].as_array().expect("scenes").iter().zip(scenes) {
+        assert_eq!(scene["subjects"].as_array().expect("subjects").len(), 4, "{name}");
+        assert_eq!(scene["hits"].as_u64() > Some(0), name != "uniform:0", "{name}: {}", scene["hits"]);
+    }
+}
+
+#[test]
+fn the_first_wrong_pixel_is_told_with_a_command_that_comes_to_it_again() {
+    let desk = Desk::new();
+    let words = [
+        "two words.xyz",
+        "--size",
+        SMALL,
+        "--eye",
+        "0.1,-0.25,7",
+        "--fov",
+        "30",
+        "--subject",
+        "naive-f32-textbook",
+    ];
+    assert_eq!(desk.run(&words).code, 0);
+    let account = |report: &Value| report["scenes"][0]["subjects"][0]["first_wrong"].clone();
+    let first = account(&report(&desk.path("cgt-report")));
+    let told = first.as_str().expect("the textbook form is never all equal here").to_owned();
+    let labels: Vec<_> = told.lines().map(|line| line.split(' ').next().unwrap_or_default()).collect();
+    assert_eq!(labels, ["pixel", "eye", "direction", "truth", "subject", "replay"]);
+    let replay =
+        told.lines().last().and_then(|line| line.strip_prefix("replay     cgt ")).expect("a command");
+    let mut shell = desk.command("sh");
+    let said = desk.finish(shell.args(["-c", &format!("\"$0\" {replay} --out replayed"), CGT]));
+    assert_eq!(said.code, 0, "{replay}: {}", said.err);
+    assert_eq!(account(&report(&desk.path("replayed"))), first);
+}
+
+#[test]
+fn a_cut_frame_costs_that_frame_only_and_is_said() {
+    let desk = Desk::new();
+    let said = desk.run(&["cut.xyz", "--size", SMALL]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert_eq!(said.err.matches("cut.xyz").count(), 1, "{}", said.err);
+    for want in ["warning: cut.xyz:5: ", "ends within frame 1", "1 complete kept"] {
+        assert!(said.err.contains(want), "{want:?} is not said in {}", said.err);
+    }
+    let report = report(&desk.path("cgt-report"));
+    assert_eq!(report["scenes"][0]["frames"], 1);
+    assert_eq!(report["scenes"][0]["warnings"].as_array().map(Vec::len), Some(1));
+    assert_eq!(desk.run(&["cut.xyz", "--size", SMALL, "--frame", "1"]).code, 2);
+}
+
+#[test]
+fn pictures_can_be_decoded() {
+    let desk = Desk::new();
+    for (file, method) in [("a.png", "exact"), ("b.PNG", "grid"), ("c.exr", "exact"), ("d.exr", "naive-f64")]
+    {
+        let said = desk.run(&["render", "1hvr", file, "--method", method, "--size", SMALL]);
+        assert_eq!((said.code, said.out), (0, format!("wrote {file}\n")), "{}", said.err);
+    }
+    for file in ["a.png", "b.PNG"] {
+        let bytes = std::fs::read(desk.path(file)).expect("written");
+        let picture =
+            image::load_from_memory_with_format(&bytes, image::ImageFormat::Png).expect("a PNG").to_rgba8();
+        assert_eq!(picture.dimensions(), (64, 36));
+        let first = picture.get_pixel(0, 0);
+        assert!(picture.pixels().any(|pixel| pixel != first), "{file}: one colour all over");
+    }
+    for file in ["c.exr", "d.exr"] {
+        use exr::prelude::*;
+        let read = read_all_flat_layers_from_file(desk.path(file)).expect("an EXR");
+        assert_eq!(read.attributes.display_window.size, Vec2(64, 36), "{file}");
+        let channels = read.layer_data.iter().flat_map(|layer| &layer.channel_data.list);
+        assert!(channels.count() >= 5, "{file}: colour, id and t");
+    }
+    assert_eq!(
+        std::fs::read(desk.path("c.exr")).ok(),
+        std::fs::read(desk.path("d.exr")).ok(),
+        "f64 is exact here"
+    );
+}
+
+#[test]
+fn help_is_enough_for_a_stranger() {
+    let desk = Desk::new();
+    let help = desk.run(&["--help"]);
+    assert_eq!((help.code, help.err.as_str()), (0, ""));
+    for want in ["Exit codes", "report.html", "cgt scenes", "1hvr", "render", "--size", "--subject", "grid"] {
+        assert!(help.out.contains(want), "{want:?} is not in the help");
+    }
+    for code in 0..=3 {
+        assert!(
+            help.out.lines().any(|line| line.starts_with(&format!("  {code}  "))),
+            "code {code} is not told"
+        );
+    }
+    for command in ["verify", "render", "scenes"] {
+        let help = desk.run(&[command, "--help"]);
+        assert_eq!(help.code, 0, "{command}");
+        assert!(help.out.contains("Usage: cgt"), "{command}");
+    }
+    let version = desk.run(&["--version"]);
+    assert_eq!((version.code, version.out), (0, format!("cgt {}\n", env!("CARGO_PKG_VERSION"))));
+}
+
+#[test]
+fn every_named_scene_is_listed_and_absent_data_is_marked() {
+    let said = Desk::new().run(&["scenes"]);
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    let entries = verify::scenes::catalogue::ENTRIES;
+    for entry in entries {
+        let line =
+            said.out.lines().find(|line| line.starts_with(&format!("{} ", entry.name))).expect(entry.name);
+        let bundled = matches!(entry.data, verify::scenes::catalogue::Data::Bundled(..));
+        assert_eq!(line.contains("(absent)"), !bundled, "{line}");
+    }
+    for want in ["uniform:COUNT:SEED", ".lammpstrj", "tests/fetch-data"] {
+        assert!(said.out.contains(want), "{want:?} is not listed");
+    }
+}
+
+#[test]
+fn a_tracer_without_a_picture_is_not_judged_and_ends_with_3() {
+    let desk = Desk::new();
+    let verify = ["1hvr", "--size", SMALL, "--out", "report"];
+    let said = desk.finish(desk.command(CGT).args(verify).env("CGT_LEVEL", "abacus"));
+    assert_eq!(said.code, 3, "{}{}", said.out, said.err);
+    let report = report(&desk.path("report"));
+    assert_eq!(report["verdict"], "NotJudged");
+    let subjects = report["scenes"][0]["subjects"].as_array().expect("subjects");
+    let verdicts: Vec<_> = subjects.iter().map(|subject| (&subject["name"], &subject["verdict"])).collect();
+    for (name, verdict) in verdicts {
+        assert_eq!(verdict == "NotJudged", name == "grid", "{name}: {verdict}");
+    }
+    let because = subjects.last().and_then(|grid| grid["because"].as_str()).expect("a reason");
+    assert!(because.contains("abacus") && because.ends_with('.'), "{because}");
+    let render = ["render", "1hvr", "x.png", "--method", "grid", "--size", SMALL];
+    let said = desk.finish(desk.command(CGT).args(render).env("CGT_LEVEL", "abacus"));
+    assert_eq!((said.code, said.err.contains("abacus")), (2, true), "{}", said.err);
+    assert!(!desk.path("x.png").exists());
+}
+
+#[test]
+fn the_report_names_the_level_that_was_used() {
+    let desk = Desk::new();
+    let verify = ["1hvr", "--size", SMALL, "--subject", "grid"];
+    let said = desk.finish(desk.command(CGT).args(verify).env("CGT_LEVEL", "scalar"));
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert_eq!(report(&desk.path("cgt-report"))["environment"]["simd"], "scalar");
+}
+
+// ---- places that fail ----
+
+#[cfg(unix)]
+#[test]
+fn a_read_only_place_is_refused_before_anything_is_rendered() {
+    use std::os::unix::fs::PermissionsExt;
+    let desk = Desk::new();
+    std::fs::create_dir(desk.path("locked")).expect("made");
+    std::fs::set_permissions(desk.path("locked"), PermissionsExt::from_mode(0o555)).expect("locked");
+    // To root a folder without write permission is as good as any; the kernel's own folders are not.
+    let mut places = vec!["/proc".to_owned(), "/sys".to_owned()];
+    places.retain(|place| Path::new(place).is_dir());
+    if std::fs::write(desk.path("locked/x"), "").is_err() {
+        places.push("locked".into());
+    }
+    if places.is_empty() {
+        _ = writeln!(std::io::stderr(), "not judged: writing into a read-only place: none was found");
+    }
+    for place in places {
+        for words in [
+            // Only the look at the place before rendering says it in the words asked for below.
+            vec!["1hvr".to_owned(), "--size".into(), SMALL.into(), "--out".into(), format!("{place}/report")],
+            vec!["render".into(), "1hvr".into(), format!("{place}/x.png"), "--size".into(), SMALL.into()],
+        ] {
+            let said = desk.run(&words);
+            assert_eq!((said.code, said.out.as_str()), (2, ""), "{words:?}: {}", said.err);
+            assert!(said.err.contains("cannot write into the folder"), "{words:?}: {}", said.err);
+        }
+    }
+}
+
+/// A limit on the size of files stands for a full disk: the first bytes are taken, the rest is not.
+#[cfg(unix)]
+#[test]
+fn a_disk_that_fills_up_leaves_nothing_half_written() {
+    let desk = Desk::new();
+    std::fs::write(desk.path("old.exr"), "what was there").expect("written");
+    let limited = |words: &str| {
+        let script = format!("trap '' XFSZ; ulimit -f 8 && exec \"$0\" {words}");
+        desk.finish(desk.command("sh").args(["-c", &script, CGT]))
+    };
+    let said = limited("render 1hvr old.exr --size 640x360 --method grid");
+    assert_eq!(said.code, 2, "{}", said.err);
+    assert!(said.err.contains("cannot write the") && said.err.contains("`old.exr`"), "{}", said.err);
+    assert_eq!(std::fs::read(desk.path("old.exr")).ok().as_deref(), Some(&b"what was there"[..]));
+    let said = limited(&format!("1hvr --size {SMALL} --subject grid --out report"));
+    assert_eq!((said.code, said.out.as_str()), (2, ""), "{}", said.err);
+    for path in files(&desk.path("report")) {
+        let whole = image::open(&path).is_ok();
+        assert!(whole, "{} is neither whole nor absent", path.display());
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_an_error_and_a_closed_one_is_not() {
+    let desk = Desk::new();
+    for words in ["scenes".to_owned(), format!("1hvr --size {SMALL} --subject grid")] {
+        let said = desk.finish(desk.command("sh").args(["-c", &format!("\"$0\" {words} >/dev/full"), CGT]));
+        assert_eq!(said.code, 2, "{words}: {}", said.err);
+        assert!(said.err.contains("standard output: No space left"), "{words}: {}", said.err);
+        let script = format!("{{ \"$0\" {words}; echo $? >code; }} | true; cat code");
+        let said = desk.finish(desk.command("sh").args(["-c", &script, CGT]));
+        assert_eq!((said.out.as_str(), said.err.as_str()), ("0\n", ""), "{words}: into a closed pipe");
+    }
+}
+
+// ---- how much it can hold ----
+
+/// Ten million spheres, a minute and about a gigabyte: with `CGT_LONG=1`.
+#[test]
+fn ten_million_spheres_are_judged() {
+    if std::env::var_os("CGT_LONG").is_none_or(|value| value != "1") {
+        _ = writeln!(std::io::stderr(), "not judged: ten million spheres (set CGT_LONG=1)");
+        return;
+    }
+    let desk = Desk::new();
+    let said = desk.run(&["verify", "uniform:10000000:1", "--size", SMALL, "--subject", "grid"]);
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    assert_eq!(report(&desk.path("cgt-report"))["scenes"][0]["spheres"], 10_000_000);
+}

@@ -1,0 +1,183 @@
+//! Is every word of README that can be checked true? Its commands are run, its table of claims is the program's, its
+//! links lead somewhere, its pictures come out again, and the output it shows is what the program prints.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+use tempfile::TempDir;
+use verify::scenes::catalogue::{Data, ENTRIES};
+
+/// Commands that are not run here, and why. Each must occur, and each script of them must be there to be run.
+const NOT_RUN: [(&str, &str); 2] =
+    [("tests/run", "it is what runs this test"), ("tests/fetch-data", "it needs a network")];
+
+const FIRST_COMMAND: &str = "cargo run --release";
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn readme() -> String {
+    std::fs::read_to_string(root().join("README.md")).expect("there is a README.md")
+}
+
+/// The lines between ```` ```kind ```` and the closing fence, of each such block.
+fn blocks(text: &str, kind: &str) -> Vec<Vec<String>> {
+    let (mut blocks, mut open) = (Vec::new(), None);
+    for line in text.lines() {
+        match line.strip_prefix("```") {
+            Some(kind) if open.is_none() => open = Some((kind.to_owned(), Vec::new())),
+            Some(_) => blocks.extend(open.take()),
+            None => {
+                if let Some((_, lines)) = &mut open {
+                    lines.push(line.to_owned());
+                }
+            }
+        }
+    }
+    assert!(open.is_none(), "a fence is not closed");
+    blocks.into_iter().filter(|(found, _)| found == kind).map(|(_, lines)| lines).collect()
+}
+
+/// What `cgt` is given by a command line of README, or `None` if it is none of `cgt`.
+fn words(line: &str) -> Option<Vec<&str>> {
+    let rest = match line.strip_prefix("cargo run --release") {
+        Some("") => "",
+        Some(rest) => rest.strip_prefix(" -- ")?,
+        None => line.strip_prefix("cgt ")?,
+    };
+    Some(rest.split_whitespace().collect())
+}
+
+/// Runs a command line in a new folder that has the files which README takes for the user's own.
+fn run(line: &str) -> (TempDir, Output) {
+    let desk = tempfile::tempdir().expect("a temporary folder");
+    std::fs::create_dir(desk.path().join("docs")).expect("made");
+    let bundled = ENTRIES.iter().find_map(|entry| match entry.data {
+        Data::Bundled("2juy.pdb.gz", bytes) => Some(bytes),
+        _ => None,
+    });
+    std::fs::write(desk.path().join("molecule.pdb.gz"), bundled.expect("bundled")).expect("written");
+    let path = "2\none\nC 0 0 0\nO 1.2 0 0\n2\ntwo\nC 0 0 0\nO 1.3 0 0\n";
+    std::fs::write(desk.path().join("path.xyz"), path).expect("written");
+    let words =
+        words(line).unwrap_or_else(|| panic!("README names a command this test does not know: {line}"));
+    let output = Command::new(env!("CARGO_BIN_EXE_cgt")).args(words).current_dir(desk.path()).output();
+    (desk, output.expect("the program starts"))
+}
+
+/// README's first command at its full size, run once for the tests that ask about it.
+fn first() -> &'static (TempDir, Output) {
+    static FIRST: OnceLock<(TempDir, Output)> = OnceLock::new();
+    FIRST.get_or_init(|| run(FIRST_COMMAND))
+}
+
+#[test]
+fn commands_work_and_pictures_come_out_again() {
+    let commands: Vec<String> = blocks(&readme(), "sh").concat();
+    assert!(commands.len() > NOT_RUN.len(), "README has hardly a command");
+    for (line, why) in NOT_RUN {
+        assert!(
+            commands.iter().any(|command| command == line),
+            "{line} ({why}) is exempt and does not occur"
+        );
+        assert!(executable(&root().join(line)), "{line} cannot be run");
+    }
+    let mut pictures = pngs(&root().join("docs"));
+    assert!(!pictures.is_empty(), "README has pictures");
+    for line in commands.iter().filter(|line| NOT_RUN.iter().all(|(exempt, _)| exempt != line)) {
+        let own = (line != FIRST_COMMAND).then(|| run(line));
+        let (desk, output) = own.as_ref().unwrap_or_else(|| first());
+        let said = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+        assert!(output.status.success(), "{line}: {}{}", said(&output.stdout), said(&output.stderr));
+        let made = [pngs(&desk.path().join("docs")), pngs(&desk.path().join("cgt-report"))].concat();
+        pictures.retain(|picture| {
+            !made.iter().any(|made| made.file_name() == picture.file_name() && same(made, picture))
+        });
+    }
+    assert!(pictures.is_empty(), "no command of README makes these, as they are: {pictures:?}");
+}
+
+fn pngs(folder: &Path) -> Vec<PathBuf> {
+    let entries =
+        std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.expect("an entry").path());
+    entries.filter(|path| path.extension().is_some_and(|extension| extension == "png")).collect()
+}
+
+/// Whether two files hold the same pixels, however packed.
+fn same(one: &Path, other: &Path) -> bool {
+    let pixels = |path: &Path| image::open(path).expect("a picture").to_rgba8();
+    pixels(one) == pixels(other)
+}
+
+#[cfg(unix)]
+fn executable(path: &Path) -> bool {
+    use std::os::unix::fs::PermissionsExt;
+    path.metadata().is_ok_and(|data| data.is_file() && data.permissions().mode() & 0o111 == 0o111)
+}
+
+#[cfg(not(unix))]
+fn executable(path: &Path) -> bool {
+    path.is_file()
+}
+
+#[test]
+fn what_the_first_command_prints_is_what_is_shown() {
+    let shown = blocks(&readme(), "text");
+    let [shown] = shown.as_slice() else { panic!("one block shows output, not {}", shown.len()) };
+    let printed = String::from_utf8(first().1.stdout.clone()).expect("UTF-8");
+    let printed: Vec<_> = printed.lines().map(without_speed).collect();
+    let shown: Vec<_> = shown.iter().map(|line| without_speed(line)).collect();
+    assert_eq!(shown, printed, "left as README shows it, right as it is printed");
+}
+
+/// A row of the table without the blanks and the last column, which is time's; other lines as they are.
+fn without_speed(line: &str) -> String {
+    let mut cells: Vec<_> = line.split_ascii_whitespace().collect();
+    if line.starts_with("1hvr ") {
+        let speed = cells.pop().unwrap_or_default();
+        assert!(speed.parse::<f64>().is_ok_and(|speed| speed > 0.0), "a speed ends the row: {line}");
+    }
+    cells.join(" ")
+}
+
+#[test]
+fn the_table_of_claims_is_the_programs() {
+    let text = readme();
+    let (_, rest) = text.split_once("<!-- claims -->\n").expect("the table's beginning is marked");
+    let (table, _) = rest.split_once("<!-- /claims -->").expect("and its end");
+    assert_eq!(table, verify::claims::markdown(), "replace README's table by the right one");
+    for claim in verify::claims::claims() {
+        if let Some(test) = claim.how.strip_prefix("cargo test --test ") {
+            assert!(
+                root().join(format!("tests/{test}.rs")).is_file(),
+                "{}: there is no such test",
+                claim.how
+            );
+        }
+    }
+}
+
+#[test]
+fn links_lead_somewhere() {
+    let text = readme();
+    let mut seen = 0;
+    for target in text.split("](").skip(1).filter_map(|rest| rest.split(')').next()) {
+        seen += 1;
+        let there = match target.strip_prefix('#') {
+            Some(heading) => text.lines().any(|line| line.to_lowercase() == format!("## {heading}")),
+            None => target.starts_with("https://") || root().join(target).exists(),
+        };
+        assert!(there, "README links to {target}, which is not there");
+    }
+    assert!(seen >= 10, "only {seen} links were found");
+}
+
+#[test]
+fn every_folder_is_on_the_map() {
+    let text = readme();
+    for folder in ["verify/contract", "reference", "optimized", "verify", "tests", "fuzz"] {
+        assert!(root().join(folder).is_dir(), "{folder} is no folder");
+        assert!(text.contains(&format!("| [`{folder}`](")), "{folder} is not on the map");
+    }
+}

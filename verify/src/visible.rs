@@ -1,0 +1,389 @@
+//! *Hit => visible*: whenever a form reports a hit, the packet's walk comes to a cell that lists the sphere, and culling
+//! keeps it. And *complete*: a voxelizer lists a ball in every cell that holds a real point of it. Both are decided
+//! here in integers, from the grid's planes and the reported t alone, with none of the tracer's own arithmetic.
+//!
+//! Every finite f32 is an integer times 2⁻¹⁴⁹; a point P = eye + t d is one times 2⁻²⁹⁸.
+
+use contract::{Camera, Scene, Sphere};
+use dashu_int::IBig;
+use optimized::camera::{BLOCK, Block, CameraLanes, middles};
+use optimized::cull::{self, Planes};
+use optimized::frustum::{Frustum, Slices};
+use optimized::grid::{Axis, Grid};
+use optimized::host::Scalar;
+use optimized::machine::LANES;
+use optimized::plan::{Culling, Voxelizer};
+use optimized::seen::Seen;
+use optimized::sphere::Prepared;
+use optimized::{Form, margin};
+use rand::{Rng, RngExt};
+use reference::{Arithmetic, Ray, Tracer};
+
+/// How much was checked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Checked {
+    /// Reported hits.
+    pub hits: u64,
+    /// Of these, with a P within 2⁻¹² of the grid's extent from a plane of it, on some axis.
+    pub near_planes: u64,
+    /// Of these, with a P outside the sphere by more than 2⁻²⁰ of its radius.
+    pub beyond_surface: u64,
+    /// Points of rays, hit or not.
+    pub points: u64,
+    /// Balls held against the culling planes.
+    pub balls: u64,
+    /// Cells held against balls.
+    pub cells: u64,
+    /// Of these, cells that hold a point of the ball.
+    pub overlapping: u64,
+}
+
+impl std::ops::Add for Checked {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            hits: self.hits + other.hits,
+            near_planes: self.near_planes + other.near_planes,
+            beyond_surface: self.beyond_surface + other.beyond_surface,
+            points: self.points + other.points,
+            balls: self.balls + other.balls,
+            cells: self.cells + other.cells,
+            overlapping: self.overlapping + other.overlapping,
+        }
+    }
+}
+
+/// Every reported hit of every ray of a small picture, for every sphere of a small scene.
+///
+/// # Errors
+/// A sentence that says which hit is not visible, and why.
+pub fn hits_are_visible(seen: &Seen, scene: &Scene, camera: &Camera) -> Result<Checked, String> {
+    let mut checked = Checked::default();
+    for_each_ray(seen, scene, camera, |packet| {
+        (0..).zip(scene.spheres()).try_for_each(|(id, sphere)| packet.check_hit(id, sphere, &mut checked))
+    })?;
+    Ok(checked)
+}
+
+/// What walk and culling promise of any point of a ray, whether a sphere is hit there or not: its cell is visited, and a
+/// ball that reaches it is kept. Points are taken where the ray crosses planes of the grid, a few f32 steps before and after,
+/// and balls whose surface goes through the point, but for the rounding of their radius upwards.
+///
+/// # Errors
+/// A sentence that says which point is missed.
+pub fn rays_are_walked(
+    seen: &Seen,
+    scene: &Scene,
+    camera: &Camera,
+    rng: &mut impl Rng,
+) -> Result<Checked, String> {
+    let mut checked = Checked::default();
+    for_each_ray(seen, scene, camera, |packet| packet.check_crossings(rng, &mut checked))?;
+    Ok(checked)
+}
+
+/// Each ray of a picture in its packet.
+fn for_each_ray(
+    seen: &Seen,
+    scene: &Scene,
+    camera: &Camera,
+    mut check: impl FnMut(&Packet<'_>) -> Result<(), String>,
+) -> Result<(), String> {
+    let Some(grid) = &seen.grid else { return Ok(()) };
+    let reach =
+        |(p, s): (&Prepared, &Sphere)| margin::reach(seen.plan.margins, seen.plan.form, p.f, s.radius);
+    let farthest = seen.spheres.iter().zip(scene.spheres()).map(reach).fold(0.0, f32::max);
+    let m = Scalar;
+    let lanes = CameraLanes::new(m, camera);
+    for y in (0..camera.size().height()).step_by(BLOCK as usize) {
+        for x in (0..camera.size().width()).step_by(BLOCK as usize) {
+            let (xs, ys) = middles(m, camera, x, y);
+            let block = lanes.block(m, xs, ys);
+            // Rays without a common axis are packets of their own.
+            let single = |lane: usize| (Block::new(m, block.dir.map(|d| [d[lane]; LANES])), vec![lane]);
+            let packets: Vec<(Block<Scalar>, Vec<usize>)> = match Frustum::of_block(m, &block) {
+                Some(_) => vec![(block, (0..LANES).collect())],
+                None => (0..LANES).map(single).collect(),
+            };
+            for (packet, lanes) in packets {
+                let Some(frustum) = Frustum::of_block(m, &packet) else { continue };
+                let slices = frustum.slices(m, seen.eye, grid, seen.plan.margins);
+                for lane in lanes {
+                    let ray = Ray { eye: seen.eye, dir: packet.dir.map(|d| d[lane]) };
+                    check(&Packet { seen, grid, frustum: &frustum, slices: &slices, ray, farthest })?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+struct Packet<'a> {
+    seen: &'a Seen,
+    grid: &'a Grid,
+    frustum: &'a Frustum<Scalar>,
+    slices: &'a Slices,
+    ray: Ray,
+    /// The largest reach of any sphere.
+    farthest: f32,
+}
+
+impl Packet<'_> {
+    fn check_hit(&self, id: u32, sphere: &Sphere, checked: &mut Checked) -> Result<(), String> {
+        let plan = &self.seen.plan;
+        let form = match plan.form {
+            Form::Textbook => Arithmetic::F32Textbook,
+            Form::Perpendicular => Arithmetic::F32Perpendicular,
+        };
+        let alone = Scene::new(vec![*sphere], [0; 3], [0.0; 3]).map_err(|e| e.to_string())?;
+        let Some(hit) = Tracer::new(form).trace(&self.ray, &alone) else { return Ok(()) };
+        let say =
+            |what: &str| Err(format!("{what}: sphere {id} {sphere:?}, {:?}, {hit:?}, {plan}", self.ray));
+        let point = Point::on(&self.ray, hit.t);
+        let f = self.seen.spheres[id as usize].f;
+        let reach = margin::reach(plan.margins, plan.form, f, sphere.radius);
+        if !point.within(sphere.center, reach) {
+            return say("the reported point lies beyond the reach");
+        }
+        let cell = match plan.voxelizer {
+            Voxelizer::ByCenter => {
+                [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &(integer(sphere.center[i]) << 149)))
+            }
+            _ => [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &point.0[i])),
+        };
+        if !lists(self.grid, cell, id) {
+            return say(&format!("cell {cell:?} holds the point and does not list the sphere"));
+        }
+        self.visits(cell).or_else(|why| say(&why))?;
+        let prepared = &self.seen.spheres[id as usize];
+        if plan.culling == Culling::Planes && self.culls(prepared.f, prepared.cull_radius) {
+            return say("culled");
+        }
+        checked.hits += 1;
+        checked.near_planes += u64::from((0..3).any(|i| point.near_plane(i, &self.grid.axes[i])));
+        checked.beyond_surface +=
+            u64::from(!point.within(sphere.center, sphere.radius * (1.0 + 1.0 / 1_048_576.0)));
+        Ok(())
+    }
+
+    /// Whether the walk comes to a cell.
+    fn visits(&self, cell: [usize; 3]) -> Result<(), String> {
+        let [i, j, k] = self.frustum.order.map(|axis| cell[axis]);
+        let slice = self.frustum.slice_index(self.slices.count, i);
+        let [first, last] = [&self.slices.first, &self.slices.last];
+        let range = |side: usize| first[side][slice]..=last[side][slice];
+        let within = |side: usize, x: usize| i32::try_from(x).is_ok_and(|x| range(side).contains(&x));
+        if within(0, j) && within(1, k) {
+            return Ok(());
+        }
+        Err(format!(
+            "the walk does not come to cell {cell:?} in slice {slice}: {:?}, {:?}",
+            range(0),
+            range(1)
+        ))
+    }
+
+    /// Whether culling drops a ball, given by eye − centre.
+    fn culls(&self, f: [f32; 3], radius: f32) -> bool {
+        let center = self.frustum.along(f.map(|x| -x)).map(|x| [x; LANES]);
+        Planes::new(Scalar, self.frustum, self.seen.plan.margins).cull(Scalar, center, [radius; LANES])
+    }
+
+    /// Where spheres are listed by centre: a centre as far from the point as any sphere reaches, on one axis.
+    fn check_center(&self, point: &Point, rng: &mut impl Rng) -> Result<(), String> {
+        if self.seen.plan.voxelizer != Voxelizer::ByCenter {
+            return Ok(());
+        }
+        let near = point.0.each_ref().map(to_f32);
+        let (i, outward) = (rng.random_range(0..3), rng.random::<bool>());
+        let mut center = near;
+        center[i] = if outward { near[i] + self.farthest } else { near[i] - self.farthest };
+        // Back by an ulp of the distance and one of the centre: either alone may be too small to get anywhere.
+        let step = self.farthest * f32::EPSILON / 2.0;
+        while !point.within(center, self.farthest) {
+            center[i] = if outward { (center[i] - step).next_down() } else { (center[i] + step).next_up() };
+        }
+        let planes = &self.grid.axes[i].planes;
+        if !(planes[0]..=planes[planes.len() - 1]).contains(&center[i]) {
+            return Ok(());
+        }
+        let cell = [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &(integer(center[i]) << 149)));
+        self.visits(cell)
+            .map_err(|why| format!("a sphere with its centre at {center:?} reaches the point; {why}"))
+    }
+
+    #[allow(clippy::cast_possible_truncation, reason = "any t near the crossing will do")]
+    fn check_crossings(&self, rng: &mut impl Rng, checked: &mut Checked) -> Result<(), String> {
+        let ray = &self.ray;
+        for i in 0..3 {
+            let axis = &self.grid.axes[i];
+            let plane = axis.planes[rng.random_range(0..axis.planes.len())];
+            let crossing = (f64::from(plane) - f64::from(ray.eye[i])) / f64::from(ray.dir[i]);
+            // A beam reaches what it is aimed at about t = 1.
+            let mut t = if rng.random() { 1.0 } else { crossing as f32 };
+            for _ in 0..rng.random_range(0..3) {
+                t = if rng.random() { t.next_up() } else { t.next_down() };
+            }
+            let point = Point::on(ray, if t.is_finite() && t > 0.0 { t } else { continue });
+            if !point.in_grid(self.grid) {
+                continue;
+            }
+            let say = |what: &str| Err(format!("{what}: t = {t:?}, {ray:?}, {}", self.seen.plan));
+            self.visits([0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &point.0[i])))
+                .or_else(|why| say(&why))?;
+            checked.points += 1;
+            self.check_center(&point, rng).or_else(|why| say(&why))?;
+
+            // A ball beside the point, sideways on a minor axis, whose surface goes through it.
+            let side = self.frustum.order[rng.random_range(1..3)];
+            let distance = rng.random_range(-1.0f32..1.0) * 10f32.powi(rng.random_range(-6..2)) * t;
+            let near: [f32; 3] = std::array::from_fn(|i| ray.eye[i] + t * ray.dir[i]);
+            let center: [f32; 3] =
+                std::array::from_fn(|i| if i == side { near[i] + distance } else { near[i] });
+            let Some(radius) = point.distance_up(center) else { continue };
+            let f = [0, 1, 2].map(|i| ray.eye[i] - center[i]);
+            if self.culls(f, cull::radius(self.seen.plan.margins, f, radius)) {
+                return say(&format!("the ball at {center:?}, radius {radius:?}, is culled"));
+            }
+            checked.balls += 1;
+        }
+        Ok(())
+    }
+}
+
+/// A ball is listed in every cell that holds a real point of it; by centre, in the cell of its centre.
+///
+/// # Errors
+/// A sentence that says which cell does not list which sphere.
+pub fn listing_is_complete(seen: &Seen, scene: &Scene) -> Result<Checked, String> {
+    let mut checked = Checked::default();
+    let Some(grid) = &seen.grid else { return Ok(checked) };
+    for (id, sphere) in (0..).zip(scene.spheres()) {
+        let prepared = &seen.spheres[id as usize];
+        let reach = margin::reach(seen.plan.margins, seen.plan.form, prepared.f, sphere.radius);
+        for cell in all_cells(grid) {
+            let holds = match seen.plan.voxelizer {
+                Voxelizer::ByCenter => {
+                    cell == [0, 1, 2].map(|i| cell_of(&grid.axes[i], &(integer(sphere.center[i]) << 149)))
+                }
+                _ => meets(grid, cell, sphere.center, reach),
+            };
+            checked.cells += 1;
+            checked.overlapping += u64::from(holds);
+            if holds && !lists(grid, cell, id) {
+                return Err(format!(
+                    "cell {cell:?} does not list sphere {id} {sphere:?}, reach {reach:?}; {}",
+                    seen.plan
+                ));
+            }
+        }
+    }
+    Ok(checked)
+}
+
+/// A point times 2²⁹⁸.
+struct Point([IBig; 3]);
+
+impl Point {
+    fn on(ray: &Ray, t: f32) -> Self {
+        Self([0, 1, 2].map(|i| (integer(ray.eye[i]) << 149) + integer(t) * integer(ray.dir[i])))
+    }
+
+    fn within(&self, center: [f32; 3], radius: f32) -> bool {
+        let d = [0, 1, 2].map(|i| &self.0[i] - (integer(center[i]) << 149));
+        let r = integer(radius) << 149;
+        &d[0] * &d[0] + &d[1] * &d[1] + &d[2] * &d[2] <= &r * &r
+    }
+
+    fn in_grid(&self, grid: &Grid) -> bool {
+        (0..3).all(|i| {
+            let planes = &grid.axes[i].planes;
+            let at = |plane: f32| integer(plane) << 149;
+            at(planes[0]) <= self.0[i] && self.0[i] <= at(planes[planes.len() - 1])
+        })
+    }
+
+    /// The least f32 not below the distance of a point; `None` beyond f32.
+    #[allow(clippy::cast_possible_truncation, reason = "a start for the search")]
+    fn distance_up(&self, from: [f32; 3]) -> Option<f32> {
+        let d =
+            [0, 1, 2].map(|i| (&self.0[i] - (integer(from[i]) << 149)).to_f64().value() * 2f64.powi(-298));
+        let mut radius = d.iter().map(|x| x * x).sum::<f64>().sqrt() as f32;
+        while radius > 0.0 && self.within(from, radius) {
+            radius = radius.next_down();
+        }
+        while radius.is_finite() && !self.within(from, radius) {
+            radius = radius.next_up();
+        }
+        (radius.is_finite() && radius > 0.0).then_some(radius)
+    }
+
+    fn near_plane(&self, i: usize, axis: &Axis) -> bool {
+        let last = axis.planes.len() - 1;
+        let extent = (integer(axis.planes[last]) - integer(axis.planes[0])) << 149;
+        axis.planes.iter().any(|&plane| {
+            let distance: IBig = (&self.0[i] - (integer(plane) << 149)) << 12;
+            -extent.clone() <= distance && distance <= extent
+        })
+    }
+}
+
+/// The cell of a coordinate times 2²⁹⁸: as many planes as are not above it, but for the two ends.
+fn cell_of(axis: &Axis, x: &IBig) -> usize {
+    let inner = &axis.planes[1..axis.planes.len() - 1];
+    inner.iter().filter(|&&plane| (integer(plane) << 149) <= *x).count()
+}
+
+/// Whether a closed ball holds a real point of a cell. A cell has its lower planes and not its upper ones; the cells at the
+/// ends reach on for ever.
+fn meets(grid: &Grid, cell: [usize; 3], center: [f32; 3], radius: f32) -> bool {
+    let (mut square, mut open) = (IBig::ZERO, false);
+    for i in 0..3 {
+        let (planes, c) = (&grid.axes[i].planes, integer(center[i]));
+        let lower = (cell[i] > 0).then(|| integer(planes[cell[i]]));
+        let upper = (cell[i] + 2 < planes.len()).then(|| integer(planes[cell[i] + 1]));
+        let below = lower.map(|lower| lower - &c).filter(|d| *d > IBig::ZERO);
+        let above = upper.map(|upper| &c - upper).filter(|d| *d >= IBig::ZERO);
+        open |= above.is_some();
+        let outside = below.or(above).unwrap_or(IBig::ZERO);
+        square += &outside * &outside;
+    }
+    let r = integer(radius);
+    let limit = &r * &r;
+    if open { square < limit } else { square <= limit }
+}
+
+fn all_cells(grid: &Grid) -> impl Iterator<Item = [usize; 3]> + use<> {
+    let n = [0, 1, 2].map(|i| grid.axes[i].planes.len() - 1);
+    (0..n[0]).flat_map(move |i| (0..n[1]).flat_map(move |j| (0..n[2]).map(move |k| [i, j, k])))
+}
+
+fn lists(grid: &Grid, cell: [usize; 3], id: u32) -> bool {
+    let strides = grid.strides();
+    let mut found = false;
+    grid.for_each_id((0..3).map(|i| cell[i] * strides[i]).sum(), true, |listed| found |= listed == id);
+    found
+}
+
+/// About x 2⁻²⁹⁸.
+fn to_f64(x: &IBig) -> f64 {
+    x.to_f64().value() * 2f64.powi(-298)
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "about")]
+fn to_f32(x: &IBig) -> f32 {
+    to_f64(x) as f32
+}
+
+/// A finite f32 times 2¹⁴⁹.
+fn integer(x: f32) -> IBig {
+    assert!(x.is_finite(), "{x} is no number");
+    let bits = x.to_bits();
+    let (exponent, fraction) = ((bits >> 23) & 0xff, bits & 0x7f_ffff);
+    let magnitude = match exponent {
+        0 => IBig::from(fraction),
+        _ => IBig::from(fraction | 0x80_0000) << (exponent as usize - 1),
+    };
+    if x.is_sign_negative() { -magnitude } else { magnitude }
+}
