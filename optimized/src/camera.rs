@@ -1,7 +1,7 @@
 //! From the camera to a block: the directions of its 4x4 rays, by rule 1 of the contract, bit for bit.
 //! Lane 4 j + i is column i, row j of the block.
 
-use crate::machine::{LANES, Machine};
+use crate::machine::{LANES, Machine, three};
 use contract::Camera;
 
 /// Side of a block in pixels (the paper's packet).
@@ -30,14 +30,14 @@ impl<M: Machine> CameraLanes<M> {
     /// Spreads a camera.
     #[inline(always)]
     pub fn new(m: M, camera: &Camera) -> Self {
-        let spread = |v: [f32; 3]| v.map(|x| m.splat(x));
-        Self { corner: spread(camera.corner()), du: spread(camera.du()), dv: spread(camera.dv()) }
+        Self { corner: spread(m, camera.corner()), du: spread(m, camera.du()), dv: spread(m, camera.dv()) }
     }
 
     /// Kernel: the rays through the pixels whose middles are (x, y).
     #[inline(always)]
     pub fn block(&self, m: M, x: M::F, y: M::F) -> Block<M> {
-        let dir = [0, 1, 2].map(
+        let dir = three(
+            [0, 1, 2],
             #[inline(always)]
             |i| m.add(m.add(self.corner[i], m.mul(x, self.du[i])), m.mul(y, self.dv[i])),
         );
@@ -52,6 +52,16 @@ impl<M: Machine> Block<M> {
         let dd = m.dot(dir, dir);
         Self { dir, inv_dd: m.div(m.splat(1.0), dd), dd }
     }
+}
+
+/// A vector, the same in all lanes.
+#[inline(always)]
+pub fn spread<M: Machine>(m: M, v: [f32; 3]) -> [M::F; 3] {
+    three(
+        v,
+        #[inline(always)]
+        |x| m.splat(x),
+    )
 }
 
 /// Rim: the middles of the pixels of the block whose first pixel is (x, y). Pixels beyond the image repeat

@@ -1,9 +1,9 @@
 //! A frame: the grid is built, then stripes of four scanlines go to the workers as these become free, each stripe
 //! in 4x4 blocks from left to right (the paper's SPUs and their blocks of scanlines).
 
-use crate::camera::{BLOCK, Block, CameraLanes, middles};
+use crate::camera::{BLOCK, Block, CameraLanes, middles, spread};
 use crate::event::{Events, RenderError};
-use crate::machine::{LANES, Machine};
+use crate::machine::{LANES, Machine, three};
 use crate::plan::{Plan, Sharing};
 use crate::seen::{Counts, Seen};
 use crate::shade::{Surface, shade};
@@ -47,7 +47,7 @@ pub fn render<M: Machine + Send + Sync>(
 ) -> Result<Rendering, RenderError> {
     let mut image = Image::new(camera.size(), scene.background())?;
     let mut events = Events::default();
-    let seen = m.within(|| Seen::new(m, plan, scene, camera, &mut events))?;
+    let seen = Seen::new(m, plan, scene, camera, &mut events)?;
     let rows = camera.size().width() as usize * BLOCK as usize;
     let layers = image.ids.chunks_mut(rows).zip(image.t.chunks_mut(rows)).zip(image.rgba.chunks_mut(rows));
     let stripes = (0..).step_by(BLOCK as usize).zip(layers);
@@ -57,7 +57,7 @@ pub fn render<M: Machine + Send + Sync>(
         let mirrored = match plan.sharing {
             Sharing::Shared => None,
             // The same grid with the same events once more; an error would have come the first time.
-            Sharing::Mirrored => m.within(|| Seen::new(m, plan, scene, camera, &mut Events::default())).ok(),
+            Sharing::Mirrored => Seen::new(m, plan, scene, camera, &mut Events::default()).ok(),
         };
         let seen = mirrored.as_ref().unwrap_or(&seen);
         let mut counts = Counts::default();
@@ -122,10 +122,15 @@ fn write<M: Machine>(
             }
         }
     }
-    let [cx, cy, cz, r, red, green, blue] = gathered.map(|lanes| m.lanes(lanes));
-    let surface = Surface { center: [cx, cy, cz], radius: r, color: [red, green, blue] };
-    let (eye, light) = (seen.eye.map(|x| m.splat(x)), scene.light().map(|x| m.splat(x)));
-    let rgb = shade(m, eye, block.dir, light, nearest.t, &surface).map(|channel| m.to_array_i(channel));
+    let [cx, cy, cz, radius, r, g, b] = gathered;
+    let (center, color) = ([cx, cy, cz], [r, g, b]);
+    let surface = Surface { center: gather(m, center), radius: m.lanes(radius), color: gather(m, color) };
+    let (eye, light) = (spread(m, seen.eye), spread(m, scene.light()));
+    let rgb = three(
+        shade(m, eye, block.dir, light, nearest.t, &surface),
+        #[inline(always)]
+        |channel| m.to_array_i(channel),
+    );
     for lane in 0..LANES {
         let column = x + lane % BLOCK as usize;
         let pixel = lane / BLOCK as usize * width + column;
@@ -136,6 +141,15 @@ fn write<M: Machine>(
         stripe.t[pixel] = t[lane];
         stripe.rgba[pixel] = [to_byte(rgb[0][lane]), to_byte(rgb[1][lane]), to_byte(rgb[2][lane]), 255];
     }
+}
+
+#[inline(always)]
+fn gather<M: Machine>(m: M, lanes: [[f32; LANES]; 3]) -> [M::F; 3] {
+    three(
+        lanes,
+        #[inline(always)]
+        |lanes| m.lanes(lanes),
+    )
 }
 
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255 by rule 4")]

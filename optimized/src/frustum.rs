@@ -19,7 +19,7 @@
 
 use crate::camera::Block;
 use crate::grid::{Grid, MAX_CELLS};
-use crate::machine::{LANES, Machine, Site};
+use crate::machine::{LANES, Machine, Site, three};
 use crate::plan::Margins;
 
 /// 16 units of f32 rounding.
@@ -66,14 +66,16 @@ impl<M: Machine> Frustum<M> {
     /// The frustum of a block; `None` if its rays do not share a major axis and sense.
     #[inline(always)]
     pub fn of_block(m: M, block: &Block<M>) -> Option<Self> {
-        let first = block.dir.map(
+        let first = three(
+            block.dir,
             #[inline(always)]
             |d| m.to_array(d)[0],
         );
         let axis = major(first);
         let forward = first[axis] > 0.0;
         let order = [axis, (axis + 1) % 3, (axis + 2) % 3];
-        let [x, y, z] = order.map(
+        let [x, y, z] = three(
+            order,
             #[inline(always)]
             |i| block.dir[i],
         );
@@ -88,22 +90,19 @@ impl<M: Machine> Frustum<M> {
     /// Rim: the slopes as plain numbers.
     #[inline(always)]
     pub fn slope_arrays(&self, m: M) -> [[f32; 2]; 2] {
-        self.slopes.map(
-            #[inline(always)]
-            |side| {
-                side.map(
-                    #[inline(always)]
-                    |slope| m.to_array(slope)[0],
-                )
-            },
-        )
+        let [[lo_y, hi_y], [lo_z, hi_z]] = self.slopes;
+        [[m.to_array(lo_y)[0], m.to_array(hi_y)[0]], [m.to_array(lo_z)[0], m.to_array(hi_z)[0]]]
     }
 
     /// A vector's components along the major axis, in the rays' sense, and the other two.
     #[inline(always)]
     #[must_use]
     pub fn along(&self, v: [f32; 3]) -> [f32; 3] {
-        let [x, y, z] = self.order.map(|i| v[i]);
+        let [x, y, z] = three(
+            self.order,
+            #[inline(always)]
+            |i| v[i],
+        );
         [if self.forward { x } else { -x }, y, z]
     }
 
@@ -125,8 +124,7 @@ impl<M: Machine> Frustum<M> {
         let farthest = slices.far[count - 1].abs() + grid.widen;
         for start in (0..count).step_by(LANES) {
             let part = start..start + LANES;
-            let lanes = |values: &[f32; MAX_CELLS]| m.lanes(std::array::from_fn(|lane| values[start + lane]));
-            let (near, far) = (lanes(&near), lanes(&slices.far));
+            let (near, far) = (part_of(m, &near, start), part_of(m, &slices.far, start));
             for side in 0..2 {
                 let eye = eye[self.order[side + 1]];
                 let pad = if margins == Margins::Derived { PAD * (eye.abs() + farthest) } else { 0.0 };
@@ -172,6 +170,14 @@ impl<M: Machine> Frustum<M> {
         let last = m.select_i(m.or(behind, outside), m.splat_i(-1), axis.cell(m, high));
         [axis.cell(m, low), last]
     }
+}
+
+/// Rim: sixteen of the numbers.
+#[inline(always)]
+fn part_of<M: Machine>(m: M, values: &[f32; MAX_CELLS], start: usize) -> M::F {
+    let mut lanes = [0.0; LANES];
+    lanes.copy_from_slice(&values[start..start + LANES]);
+    m.lanes(lanes)
 }
 
 /// Where a ray moves faster along d than along the major axis.

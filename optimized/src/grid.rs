@@ -3,7 +3,7 @@
 //! A cell index is always found by one map, [`Axis::cell`]: floor((x − origin) · inverse cell size), clamped. Each
 //! rounding in it is monotone, so the map is monotone over all f32. Hence an axis has exact *planes*:
 //! `planes[i]` is the least f32 in cell i or above, found by binary search over bit patterns. A real number x
-//! is said to lie in cell i if planes[i] <= x < planes[i + 1]; for f32 that agrees with the map, and it makes
+//! is said to lie in cell i if `planes[i] <= x < planes[i + 1]`; for f32 that agrees with the map, and it makes
 //! statements about real points exact, though the map rounds.
 //!
 //! A voxelizer lists a sphere in cells of its box: the centre minus and plus the reach of [`crate::margin`],
@@ -115,13 +115,21 @@ impl Axis {
         m.select_i(m.lt_i(last, cell), last, cell)
     }
 
+    /// Rim: the cells of sixteen coordinates, by way of the machine's door.
+    fn cell_array<M: Machine>(&self, m: M, x: [f32; LANES]) -> [i32; LANES] {
+        m.within(
+            #[inline(always)]
+            || m.to_array_i(self.cell(m, m.lanes(x))),
+        )
+    }
+
     /// The next sixteen planes: for each the least f32 whose cell is at least its index.
     fn find_planes<M: Machine>(&mut self, m: M, lo: f32, hi: f32) {
         let first = i32::try_from(self.planes.len()).expect("n is an i32");
         let (mut below, mut above) = ([rank(lo); LANES], [rank(hi) + 1; LANES]);
         while (0..LANES).any(|i| above[i] - below[i] > 1) {
             let middle: [i64; LANES] = std::array::from_fn(|i| below[i] + (above[i] - below[i]) / 2);
-            let cells = m.to_array_i(self.cell(m, m.lanes(middle.map(unrank))));
+            let cells = self.cell_array(m, middle.map(unrank));
             for (i, wanted) in (0..LANES).zip(first..) {
                 let half = if cells[i] >= wanted { &mut above } else { &mut below };
                 half[i] = middle[i];
@@ -202,7 +210,11 @@ impl Grid {
     #[inline(always)]
     pub fn for_each_id(&self, index: usize, live: bool, mut visit: impl FnMut(u32)) {
         match &self.storage {
-            Storage::Queues(queues) if live => queues[index].ids().for_each(visit),
+            Storage::Queues(queues) if live => {
+                for id in queues[index].ids() {
+                    visit(id);
+                }
+            }
             Storage::Queues(_) => {}
             Storage::Lists { offsets, ids } => {
                 let start = offsets[index] as usize;
@@ -274,7 +286,10 @@ fn fill_queues<M: Machine>(
             for (queue, &cell) in read.iter_mut().zip(places) {
                 *queue = queues[index(strides, cell)];
             }
-            let pushed = Queues::read(m, &read).push(m, m.splat_i(id.cast_signed())).to_array(m);
+            let pushed = m.within(
+                #[inline(always)]
+                || Queues::read(m, &read).push(m, m.splat_i(id.cast_signed())).to_array(m),
+            );
             for (queue, &cell) in pushed.iter().zip(places) {
                 queues[index(strides, cell)] = *queue;
             }
@@ -320,7 +335,7 @@ fn cell_boxes<M: Machine>(
         for (lane, bounds) in lanes.iter_mut().zip(chunk) {
             *lane = pick(bounds)[i];
         }
-        m.to_array_i(axes[i].cell(m, m.lanes(lanes)))
+        axes[i].cell_array(m, lanes)
     };
     let lo = [0, 1, 2].map(|i| corner(i, |b| b.lo));
     let hi = [0, 1, 2].map(|i| corner(i, |b| b.hi));

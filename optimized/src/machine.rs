@@ -11,6 +11,14 @@
 /// Lanes of a machine: the rays of a 4x4 block, or sixteen slices of a grid.
 pub const LANES: usize = 16;
 
+/// The same done to each of three. Kernels use this and plain loops in place of the standard library's `map`, `fold` and
+/// `for_each`: these may stay calls, and what they call is then compiled without the machine's instructions.
+#[inline(always)]
+pub fn three<A, B>(x: [A; 3], mut f: impl FnMut(A) -> B) -> [B; 3] {
+    let [x, y, z] = x;
+    [f(x), f(y), f(z)]
+}
+
 /// A place where data decides what is executed next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Site {
@@ -96,9 +104,9 @@ pub trait Machine: Copy {
     /// x cut off towards zero, saturated to i32; 0 for NaN.
     fn truncate(self, x: Self::F) -> Self::I;
 
-    /// The smallest lane, in every lane. No lane may be NaN.
+    /// The smallest lane, in every lane. No lane may be NaN. If both zeros are smallest, either is given.
     fn smallest(self, x: Self::F) -> Self::F;
-    /// The largest lane, in every lane. No lane may be NaN.
+    /// The largest lane, in every lane. No lane may be NaN. If both zeros are largest, either is given.
     fn largest(self, x: Self::F) -> Self::F;
 
     /// Door: is any lane yes? Mostly not, so not taken is the likely way.
@@ -131,7 +139,8 @@ pub trait Machine: Copy {
     /// (u·v) summed as the contract sums it: `(x + y) + z`.
     #[inline(always)]
     fn dot(self, u: [Self::F; 3], v: [Self::F; 3]) -> Self::F {
-        let [x, y, z] = [0, 1, 2].map(
+        let [x, y, z] = three(
+            [0, 1, 2],
             #[inline(always)]
             |i| self.mul(u[i], v[i]),
         );

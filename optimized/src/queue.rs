@@ -62,14 +62,23 @@ impl<M: Machine> Queues<M> {
                 word[lane] = value.cast_signed();
             }
         }
-        Self(words.map(|word| m.lanes_i(word)))
+        let mut queues = [m.splat_i(0); WORDS];
+        for (queue, word) in queues.iter_mut().zip(words) {
+            *queue = m.lanes_i(word);
+        }
+        Self(queues)
     }
 
     /// Rim: the queue of each lane.
     #[inline(always)]
     pub fn to_array(self, m: M) -> [Queue; LANES] {
-        let words = self.0.map(|word| m.to_array_i(word));
-        std::array::from_fn(|lane| Queue(words.map(|word| word[lane].cast_unsigned())))
+        let mut queues = [Queue::EMPTY; LANES];
+        for (i, word) in self.0.into_iter().enumerate() {
+            for (queue, value) in queues.iter_mut().zip(m.to_array_i(word)) {
+                queue.0[i] = value.cast_unsigned();
+            }
+        }
+        queues
     }
 
     /// Kernel: pushes an id of at most 16 bits onto every lane's queue.

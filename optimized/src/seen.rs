@@ -6,7 +6,7 @@ use crate::cull::{self, Planes};
 use crate::event::{Event, Events, RenderError};
 use crate::frustum::{Frustum, Slices};
 use crate::grid::{Bounds, Grid};
-use crate::machine::{LANES, Machine};
+use crate::machine::{LANES, Machine, three};
 use crate::margin;
 use crate::plan::{Culling, Margins, OnEvent, Plan};
 use crate::sphere::{NONE, Nearest, Prepared};
@@ -97,12 +97,11 @@ impl Seen {
     pub fn trace<M: Machine>(&self, m: M, block: &Block<M>, counts: &mut Counts) -> Nearest<M> {
         let Some(grid) = &self.grid else {
             counts.candidates += self.spheres.len() as u64;
-            let all = self.spheres.iter().zip(0..);
-            return all.fold(
-                Nearest::none(m),
-                #[inline(always)]
-                |nearest, (sphere, id)| nearest.meet(m, self.plan.form, block, sphere, id),
-            );
+            let mut nearest = Nearest::none(m);
+            for (sphere, id) in self.spheres.iter().zip(0..) {
+                nearest = nearest.meet(m, self.plan.form, block, sphere, id);
+            }
+            return nearest;
         };
         match Frustum::of_block(m, block) {
             Some(frustum) => self.trace_packet(m, grid, block, &frustum, counts),
@@ -121,7 +120,8 @@ impl Seen {
     ) -> Nearest<M> {
         counts.split_blocks += 1;
         let (mut t, mut id) = ([f32::INFINITY; LANES], [NONE; LANES]);
-        let dir = block.dir.map(
+        let dir = three(
+            block.dir,
             #[inline(always)]
             |d| m.to_array(d),
         );
@@ -150,7 +150,8 @@ impl Seen {
             Culling::Planes => Some(Planes::new(m, frustum, self.plan.margins)),
         };
         let strides = grid.strides();
-        let stride = [0, 1, 2].map(|i| strides[frustum.order[i]]);
+        let [x, y, z] = frustum.order;
+        let stride = [strides[x], strides[y], strides[z]];
         let nearest = Nearest::none(m);
         let mut meeting = Meeting {
             m,
@@ -220,7 +221,8 @@ impl<M: Machine> Meeting<'_, M> {
         let sphere = &self.seen.spheres[id as usize];
         self.counts.candidates += 1;
         if let Some(planes) = &self.planes {
-            let center = self.frustum.along(sphere.f.map(|x| -x));
+            let [x, y, z] = sphere.f;
+            let center = self.frustum.along([-x, -y, -z]);
             let center = [m.splat(center[0]), m.splat(center[1]), m.splat(center[2])];
             if planes.cull(m, center, m.splat(sphere.cull_radius)) {
                 self.counts.culled += 1;

@@ -1,6 +1,6 @@
 //! Sixteen colours, by rule 4 of the contract, bit for bit.
 
-use crate::machine::Machine;
+use crate::machine::{Machine, three};
 use contract::{AMBIENT, DIFFUSE};
 
 /// What each ray hit: sphere data gathered by the caller, lane by lane.
@@ -24,7 +24,8 @@ pub fn shade<M: Machine>(
     t: M::F,
     surface: &Surface<M>,
 ) -> [M::I; 3] {
-    let normal = [0, 1, 2].map(
+    let normal = three(
+        [0, 1, 2],
         #[inline(always)]
         |i| m.sub(m.add(eye[i], m.mul(t, dir[i])), surface.center[i]),
     );
@@ -32,7 +33,8 @@ pub fn shade<M: Machine>(
     let s = m.add(m.splat(AMBIENT), m.mul(m.splat(DIFFUSE), cosine));
     let s = m.max(s, m.splat(0.0));
     let s = m.min(s, m.splat(1.0));
-    surface.color.map(
+    three(
+        surface.color,
         #[inline(always)]
         |channel| m.truncate(m.add(m.mul(channel, s), m.splat(0.5))),
     )

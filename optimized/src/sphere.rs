@@ -6,7 +6,7 @@
 //! the contract's; only who performs them, and how often, differs.
 
 use crate::camera::Block;
-use crate::machine::{Machine, Site};
+use crate::machine::{Machine, Site, three};
 use contract::Sphere;
 
 /// The f32 forms of the contract.
@@ -65,7 +65,8 @@ impl<M: Machine> Nearest<M> {
     /// spheres come and however often.
     #[inline(always)]
     pub fn meet(self, m: M, form: Form, block: &Block<M>, sphere: &Prepared, id: i32) -> Self {
-        let f = sphere.f.map(
+        let f = three(
+            sphere.f,
             #[inline(always)]
             |x| m.splat(x),
         );
@@ -92,7 +93,8 @@ impl<M: Machine> Nearest<M> {
     #[inline(always)]
     fn perpendicular(self, m: M, block: &Block<M>, f: [M::F; 3], rr: M::F, id: i32) -> Self {
         let h = m.mul(m.dot(f, block.dir), block.inv_dd);
-        let l = [0, 1, 2].map(
+        let l = three(
+            [0, 1, 2],
             #[inline(always)]
             |i| m.sub(f[i], m.mul(h, block.dir[i])),
         );

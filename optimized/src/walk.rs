@@ -20,7 +20,7 @@
 //! slice's distance. If spheres are listed by centre, which is up to w from P, then P must lie w before the end.
 
 use crate::frustum::Slices;
-use crate::machine::{Machine, Site};
+use crate::machine::{Machine, Site, three};
 use crate::plan::Loop;
 
 /// A slice and a cell of its rectangle, the same in all lanes.
@@ -79,28 +79,35 @@ fn nested<M: Machine>(m: M, slices: &Slices, visitor: &mut impl Visitor<M>) {
 
 #[inline(always)]
 fn flattened<M: Machine>(m: M, slices: &Slices, visitor: &mut impl Visitor<M>) {
-    let rectangle = |s: usize| Rectangle {
-        first: [m.splat_i(slices.first[0][s]), m.splat_i(slices.first[1][s])],
-        last: [m.splat_i(slices.last[0][s]), m.splat_i(slices.last[1][s])],
-    };
     let last_slice = slices.count - 1;
-    let start = rectangle(0);
+    let start = rectangle(m, slices, 0);
     let mut at = Cursor { slice: m.splat_i(0), j: start.first[0], k: start.first[1] };
     let end = m.splat_i(i32::try_from(slices.count).expect("at most MAX_CELLS"));
     loop {
-        let [s, j, k] = [at.slice, at.j, at.k].map(
+        let [s, j, k] = three(
+            [at.slice, at.j, at.k],
             #[inline(always)]
             |x| m.to_array_i(x)[0],
         );
         let s = s.unsigned_abs() as usize;
         visitor.visit(s, j, k, !slices.is_empty(s));
-        let next = step(m, at, &rectangle(s), &rectangle((s + 1).min(last_slice)));
+        let next = step(m, at, &rectangle(m, slices, s), &rectangle(m, slices, (s + 1).min(last_slice)));
         let same = m.not(m.lt_i(at.slice, next.slice));
         let go_on = m.and(m.lt_i(next.slice, end), m.or(same, visitor.unfinished(s)));
         if !m.again(go_on, Site::NextCell) {
             return;
         }
         at = next;
+    }
+}
+
+/// Rim: the rectangle of a slice.
+#[inline(always)]
+fn rectangle<M: Machine>(m: M, slices: &Slices, slice: usize) -> Rectangle<M> {
+    let ([first_j, first_k], [last_j, last_k]) = (&slices.first, &slices.last);
+    Rectangle {
+        first: [m.splat_i(first_j[slice]), m.splat_i(first_k[slice])],
+        last: [m.splat_i(last_j[slice]), m.splat_i(last_k[slice])],
     }
 }
 

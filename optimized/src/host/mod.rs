@@ -49,9 +49,9 @@ impl Level {
     /// # Errors
     /// [`NoSuchLevel`] if the variable names something else.
     pub fn best() -> Result<Self, NoSuchLevel> {
-        match std::env::var(VARIABLE) {
-            Ok(name) => Self::named(&name),
-            Err(_) => Ok(Self::available().last().copied().unwrap_or(Self::SCALAR)),
+        match std::env::var_os(VARIABLE) {
+            Some(name) => Self::named(&name.to_string_lossy()),
+            None => Ok(Self::available().last().copied().unwrap_or(Self::SCALAR)),
         }
     }
 

@@ -1,5 +1,4 @@
-//! The plainest machine: sixteen lanes are an array, each operation a loop over it. Every other machine is
-//! tested against this one.
+//! The plainest machine: sixteen lanes are an array, each operation a loop over it.
 
 use crate::machine::{LANES, Machine, Site};
 use std::array::from_fn;
