@@ -384,25 +384,59 @@ fn every_named_scene_is_listed_and_absent_data_is_marked() {
     }
 }
 
+/// A scene so small that f32 underflows: the naive f32 tracers state nothing there, and that is no pass.
 #[test]
-fn a_tracer_without_a_picture_is_not_judged_and_ends_with_3() {
+fn what_a_tracer_states_nothing_of_ends_with_3() {
     let desk = Desk::new();
-    let verify = ["1hvr", "--size", SMALL, "--out", "report"];
-    let said = desk.finish(desk.command(CGT).args(verify).env("CGT_LEVEL", "abacus"));
+    let sphere = contract::Sphere { center: [0.0; 3], radius: 1e-30, color: [200; 3] };
+    let scene = contract::Scene::new(vec![sphere], [0; 3], contract::DEFAULT_LIGHT).expect("valid");
+    let json = verify::scenes::write::json(&scene.into(), None);
+    std::fs::write(desk.path("tiny.json"), json).expect("a temporary folder");
+    let said = desk.run(&["tiny.json", "--size", SMALL, "--out", "report"]);
     assert_eq!(said.code, 3, "{}{}", said.out, said.err);
     let report = report(&desk.path("report"));
-    assert_eq!(report["verdict"], "NotJudged");
+    assert_eq!(report["verdict"], "Undecidable");
     let subjects = report["scenes"][0]["subjects"].as_array().expect("subjects");
-    let verdicts: Vec<_> = subjects.iter().map(|subject| (&subject["name"], &subject["verdict"])).collect();
-    for (name, verdict) in verdicts {
-        assert_eq!(verdict == "NotJudged", name == "safe", "{name}: {verdict}");
+    let verdict = |name: &str| &subjects.iter().find(|s| s["name"] == name).expect("judged")["verdict"];
+    assert_eq!(verdict("naive-f64"), "Equal");
+    assert_eq!(verdict("naive-f32-textbook"), "Undecidable");
+}
+
+/// The paper's plan is wrong, says why, and ends with 1.
+#[test]
+fn the_papers_plan_ends_with_1_and_says_why() {
+    let desk = Desk::new();
+    let said = desk.run(&["1hvr", "--plan", "paper", "--size", "320x180", "--out", "report"]);
+    assert_eq!(said.code, 1, "{}{}", said.out, said.err);
+    let report = report(&desk.path("report"));
+    let because = report["scenes"][0]["subjects"][0]["because"].as_str().expect("a reason");
+    for want in ["pushes onto full queues", "more than two cells on an axis", "differ from the naive picture"]
+    {
+        assert!(because.contains(want), "{because}");
     }
-    let because = subjects.last().and_then(|grid| grid["because"].as_str()).expect("a reason");
-    assert!(because.contains("abacus") && because.ends_with('.'), "{because}");
-    let render = ["render", "1hvr", "x.png", "--method", "safe", "--size", SMALL];
-    let said = desk.finish(desk.command(CGT).args(render).env("CGT_LEVEL", "abacus"));
-    assert_eq!((said.code, said.err.contains("abacus")), (2, true), "{}", said.err);
-    assert!(!desk.path("x.png").exists());
+}
+
+/// All levels are judged side by side, each under its name.
+#[test]
+fn all_levels_are_judged() {
+    let desk = Desk::new();
+    let said = desk.run(&["1hvr", "--plan", "safe", "--level", "all", "--size", SMALL, "--out", "report"]);
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    for level in optimized::Level::available() {
+        assert!(said.out.contains(&format!("safe@{level}")), "{level}: {}", said.out);
+    }
+}
+
+#[test]
+fn a_level_that_is_not_there_is_refused() {
+    let desk = Desk::new();
+    for words in
+        [&["1hvr", "--size", SMALL, "--out", "report"][..], &["render", "1hvr", "x.png", "--method", "safe"]]
+    {
+        let said = desk.finish(desk.command(CGT).args(words).env("CGT_LEVEL", "abacus"));
+        assert_eq!((said.code, said.err.contains("abacus")), (2, true), "{}", said.err);
+        assert!(!desk.path("x.png").exists() && !desk.path("report").exists());
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::report::{Claim, Evidence};
 /// Statement, kind, figure, command.
 type Row = (&'static str, Evidence, &'static str, &'static str);
 
-const ROWS: [Row; 9] = [
+const ROWS: [Row; 14] = [
     (
         "The exact reference decides as integers without a filter do",
         Evidence::Sampled,
@@ -20,21 +20,56 @@ const ROWS: [Row; 9] = [
         "cargo test --test forms",
     ),
     (
-        "The grid tracer's picture is the naive one of the same form, bit for bit",
+        "The safe plan's picture is the naive one of the same form, bit for bit",
         Evidence::Sampled,
-        "all bundled and generated scenes, and directed cameras",
+        "over 500 pictures; 128 combinations of choices at every SIMD level with 1 to 8 workers",
         "cargo test --test grid",
+    ),
+    (
+        "What is hit is visited and kept, what overlaps a cell is listed there",
+        Evidence::Sampled,
+        "over 1,000,000 points of rays on cell planes and 200,000 hits, decided in integers",
+        "cargo test --test visible",
+    ),
+    (
+        "The mended flattened loop visits the cells of the nested loops in their order",
+        Evidence::Exhausted,
+        "all 531,441 triples of slices with bounds from 0 to 2",
+        "cargo test --test walk",
+    ),
+    (
+        "The paper's loop as printed does",
+        Evidence::Refuted,
+        "right in 27 of those; differs on one slice of 2x2 cells",
+        "cargo test --test walk",
+    ),
+    (
+        "The paper's voxelization has no false negatives",
+        Evidence::Refuted,
+        "6 to 83 % of the pixels that hit are wrong on two molecules and the sphereflake",
+        "cargo test --test paper",
+    ),
+    (
+        "The paper's eight pushes list an id once, and a queue holds the last sixteen",
+        Evidence::Sampled,
+        "3,000 pushes at every SIMD level",
+        "cargo test --test queue",
+    ),
+    (
+        "Kernels are inlined into code of the chosen SIMD level, and the flattened step has no jump",
+        Evidence::Measured,
+        "the machine code of the test itself",
+        "cargo test --test machine_code",
+    ),
+    (
+        "The safe plan is over 10 times as fast as the naive tracer on the same threads",
+        Evidence::Measured,
+        "136 times on 1HVR at 1280x720, one thread, AVX-512, rebuild included",
+        "cargo bench --bench frames",
     ),
     ("The optimized picture equals the exact one, bit for bit", Evidence::NotShown, "0", "a later version"),
     ("The reference agrees with Embree outside the silhouettes", Evidence::NotShown, "0", "a later version"),
     ("Faster than Embree", Evidence::NotShown, "0", "a later version"),
-    (
-        "The paper's flattened loop visits the cells of its nested loops",
-        Evidence::NotShown,
-        "0",
-        "a later version",
-    ),
-    ("The paper's voxelization has no false negatives", Evidence::NotShown, "0", "a later version"),
     (
         "The paper's scenes fit and run in real time on its machine",
         Evidence::NotShown,
