@@ -1,11 +1,13 @@
 //! Is the truth true? The filtered exact tracer against the unfiltered one, and both against answers that are
 //! known by construction.
 
-use contract::{DEFAULT_LIGHT, Scene};
+use contract::{DEFAULT_LIGHT, MISS, Scene, Size};
 use rayon::prelude::*;
 use reference::{Arithmetic, Tracer, Undecided};
 use std::collections::BTreeMap;
 use verify::directed::{KINDS, Kind, case};
+use verify::scenes::catalogue::Source;
+use verify::scenes::frame::Framing;
 use verify::seed::{count, generator, seed};
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -63,4 +65,29 @@ fn judge(kind: Kind, seed: u64, i: u64) -> Tally {
         assert_eq!(bits(unfiltered), known, "unfiltered, known; {replay}");
     }
     Tally { cases: 1, hits: u64::from(filtered.is_some()), known: u64::from(case.known.is_some()), undecided }
+}
+
+/// The picture does not depend on how many threads there are.
+#[test]
+fn threads_change_nothing() {
+    let loaded = Source::parse("clump:300:9").and_then(|source| source.load()).expect("generated");
+    let size = Some(Size::new(67, 45).expect("small"));
+    let camera = Framing { size, ..Framing::default() }.camera(&loaded.animation).expect("in view");
+    let scene = &loaded.animation.frames()[0];
+    for arithmetic in
+        [Arithmetic::Exact, Arithmetic::F64, Arithmetic::F32Textbook, Arithmetic::F32Perpendicular]
+    {
+        let render =
+            |threads| Tracer::new(arithmetic).threads(threads).render(scene, &camera).expect("small");
+        let one = render(1);
+        assert!(one.image.ids.iter().any(|&id| id != MISS), "nothing is seen");
+        for threads in [0, 2, 3, 8] {
+            let other = render(threads);
+            let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
+            assert_eq!(one.image.ids, other.image.ids, "{arithmetic:?}, {threads} threads");
+            assert_eq!(bits(&one.image.t), bits(&other.image.t), "{arithmetic:?}, {threads} threads");
+            assert_eq!(one.image.rgba, other.image.rgba, "{arithmetic:?}, {threads} threads");
+            assert_eq!(one.undecided, other.undecided, "{arithmetic:?}, {threads} threads");
+        }
+    }
 }

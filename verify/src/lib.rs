@@ -1,6 +1,9 @@
 //! The judge's house: scenes come in, subjects render them, judges compare, a report goes out.
 //!
-//! The modules stand in the order in which data flows.
+//! The modules stand in the order in which data flows. Inputs: [`scenes`] reads, makes and frames them, [`matrix`] is the
+//! set that every tracer is held against, [`directed`] makes rays that lie where decisions are close, [`seed`] draws what
+//! is random. What is judged: [`subject`]. How: [`judge`] by bits and by error bounds, [`visible`] from inside the grid
+//! tracer; a [`verdict`] is what they say. [`run`] does it all for one frame; [`claims`], [`picture`] and [`report`] show it.
 
 pub mod directed;
 pub mod matrix;
@@ -13,7 +16,8 @@ pub mod judge;
 pub mod verdict;
 pub mod visible;
 
+pub mod run;
+
 pub mod claims;
 pub mod picture;
 pub mod report;
-pub mod run;
