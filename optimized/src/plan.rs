@@ -149,12 +149,50 @@ impl Plan {
     }
 }
 
+/// In words, as reports show it.
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { voxelizer, cells, walk, culling, margins, form, resolution, on_event, sharing } = self;
-        write!(
-            f,
-            "{voxelizer:?} {cells:?} {walk:?} Culling::{culling:?} Margins::{margins:?} {form:?} {resolution:?} {on_event:?} {sharing:?}"
-        )
+        let voxelizer = match self.voxelizer {
+            Voxelizer::EightCorners => "eight corners",
+            Voxelizer::BoxRange => "box range",
+            Voxelizer::Overlap => "exact overlap",
+            Voxelizer::ByCenter => "by centre",
+        };
+        let cells = match self.cells {
+            Cells::Queue => "queues of 16",
+            Cells::Lists => "lists",
+        };
+        let walk = match self.walk {
+            Loop::Nested => "nested loops",
+            Loop::Flattened => "flattened loop",
+            Loop::Printed => "the loop as printed",
+        };
+        let culling = match self.culling {
+            Culling::None => "no culling",
+            Culling::Planes => "four planes",
+        };
+        let margins = match self.margins {
+            Margins::None => "no margins",
+            Margins::Derived => "derived margins",
+        };
+        let form = match self.form {
+            Form::Textbook => "textbook f32",
+            Form::Perpendicular => "perpendicular f32",
+        };
+        let on_event = match self.on_event {
+            OnEvent::GoOn => "goes on in any event",
+            OnEvent::FallBack => "falls back",
+            OnEvent::Refuse => "refuses",
+        };
+        let sharing = match self.sharing {
+            Sharing::Shared => "one grid",
+            Sharing::Mirrored => "a grid for each worker",
+        };
+        write!(f, "{voxelizer} into {cells}, {walk}, {culling}, {margins}, {form}, ")?;
+        match self.resolution {
+            Resolution::Fixed(n) => write!(f, "{n} cells on an axis, ")?,
+            Resolution::UpTo(n) => write!(f, "up to {n} cells on an axis, ")?,
+        }
+        write!(f, "{on_event}, {sharing}")
     }
 }
