@@ -25,7 +25,7 @@
 //! ```
 //!
 //! The direction d is not normalised. Its ray starts at `eye`. From here on a ray is exact data: six f32
-//! numbers. [`Camera::new`] makes sure that no d is infinite (each d[i] is monotone in x and in y, since
+//! numbers. [`Camera::new`] makes sure that no d is infinite (each `d[i]` is monotone in x and in y, since
 //! rounding is monotone, so the four extreme pixels tell). A d whose three components are all zero may occur;
 //! by rule 2 it hits nothing.
 //!
