@@ -5,10 +5,11 @@ use contract::Sphere;
 use sha2::{Digest, Sha256};
 use verify::scenes::catalogue::{self, Data, ENTRIES, Source, SourceError};
 use verify::scenes::elements;
-use verify::scenes::read::{Loaded, read};
+use verify::scenes::read::{Loaded, read, read_bytes};
 
-fn counts(loaded: &Loaded) -> (usize, usize) {
-    (loaded.animation.frames()[0].spheres().len(), loaded.animation.frames().len())
+/// Spheres frame by frame.
+fn counts(loaded: &Loaded) -> Vec<usize> {
+    loaded.animation.frames().iter().map(|f| f.spheres().len()).collect()
 }
 
 /// A fetched entry, or `None` and a line on stderr.
@@ -29,9 +30,11 @@ fn every_entry_has_the_spheres_and_frames_it_promises() {
     let mut judged = 0;
     for entry in ENTRIES {
         let Some(loaded) = fetched(entry.name) else { continue };
-        assert_eq!(counts(&loaded), (entry.spheres, entry.frames), "{}", entry.name);
-        let frames = loaded.animation.frames();
-        assert!(frames.iter().all(|f| f.spheres().len() == entry.spheres), "{}: frames differ", entry.name);
+        let counts = counts(&loaded);
+        assert_eq!(counts.iter().max(), Some(&entry.spheres), "{}", entry.name);
+        assert_eq!(counts.len(), entry.frames, "{}", entry.name);
+        let same = counts.iter().all(|&n| n == entry.spheres);
+        assert_eq!(same, entry.name != "pour", "{}: {counts:?}", entry.name);
         loaded.camera(&Default::default()).unwrap_or_else(|e| panic!("{}: {e}", entry.name));
         judged += 1;
         eprintln!(
@@ -133,4 +136,59 @@ fn xtc_positions_are_inside_the_box_and_move() {
     let spread = frames[0].spheres().iter().map(|s| s.center[0]).fold(0.0, f32::max);
     assert!(spread > 50.0, "the box is about 80 Angstrom wide, not 8: {spread}");
     assert_ne!(frames[0].spheres(), frames[9].spheres());
+}
+
+/// The lines of atoms of a dump as they stand, frame by frame: id, x, y, z, radius.
+fn rows(text: &str) -> Vec<Vec<(u64, [f32; 4])>> {
+    let frames = text.split("ITEM: TIMESTEP\n").skip(1);
+    let row = |line: &str| {
+        let words: Vec<&str> = line.split(' ').collect();
+        let number = |i: usize| words[i].parse().expect("a number");
+        (words[0].parse().expect("an id"), [number(2), number(3), number(4), number(5)])
+    };
+    frames
+        .map(|frame| {
+            let (_, atoms) = frame.split_once("ITEM: ATOMS id type x y z radius\n").expect("a head");
+            atoms.lines().map(row).collect()
+        })
+        .collect()
+}
+
+#[test]
+fn a_pour_begins_with_nothing_and_grows() {
+    let Some(loaded) = fetched("pour") else { return };
+    let counts = counts(&loaded);
+    assert_eq!((counts[0], counts[1] > 0, counts[50]), (0, true, 3_000), "{counts:?}");
+    assert!(counts.is_sorted(), "none is lost: {counts:?}");
+    let mut sizes = counts.clone();
+    sizes.dedup();
+    assert!(sizes.len() > 5, "poured bit by bit: {sizes:?}");
+    let frames = loaded.animation.frames();
+    assert_ne!(frames[49].spheres(), frames[50].spheres(), "it moves after all is poured");
+    assert!(loaded.warnings.is_empty(), "radii are given, so none is guessed: {:?}", loaded.warnings);
+}
+
+/// The dump's own lines, sorted by id, are the spheres to the bit; and its radii are what the column says, not the
+/// reader's guess, which is the same 0.5: called diameters, they are half as large.
+#[test]
+fn spheres_of_a_pour_are_the_lines_of_the_dump() {
+    let Some(loaded) = fetched("pour") else { return };
+    let packed = std::fs::read(catalogue::folder().join("pour.lammpstrj.gz")).expect("it was just read");
+    let text = std::io::read_to_string(flate2::read::GzDecoder::new(&packed[..])).expect("text in gzip");
+    let (mut rows, mut unsorted) = (rows(&text), 0);
+    assert_eq!(rows.len(), loaded.animation.frames().len());
+    for (rows, frame) in rows.iter_mut().zip(loaded.animation.frames()) {
+        unsorted += usize::from(!rows.is_sorted_by_key(|row| row.0));
+        rows.sort_by_key(|row| row.0);
+        let read = frame.spheres().iter().map(|s| [s.center[0], s.center[1], s.center[2], s.radius]);
+        assert!(read.map(|s| s.map(f32::to_bits)).eq(rows.iter().map(|row| row.1.map(f32::to_bits))));
+    }
+    assert!(unsorted > 0, "LAMMPS writes in the order of its cells, so that sorting is at stake");
+    let halved = read_bytes("halved.lammpstrj", text.replace("z radius", "z diameter").as_bytes(), None);
+    let halved = halved.expect("the same but for a word");
+    let radii = |loaded: &Loaded| -> Vec<f32> {
+        loaded.animation.frames().iter().flat_map(|f| f.spheres().iter().map(|s| s.radius)).collect()
+    };
+    let (whole, halved) = (radii(&loaded), radii(&halved));
+    assert!(whole.iter().map(|r| r / 2.0).eq(halved), "halves");
 }

