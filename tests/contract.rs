@@ -103,6 +103,8 @@ fn a_camera_without_a_picture_is_refused() {
     let error =
         Camera::new(eye, corner, [f32::MAX, 0.0, 0.0], dv, size).expect_err("3.5 times the largest f32");
     assert!(matches!(error, CameraError::Overflow { x: 3, y: 0, .. }), "{error:?}");
+    let error = Camera::new(eye, corner, du, [0.0, f32::MAX, 0.0], size).expect_err("likewise");
+    assert!(matches!(error, CameraError::Overflow { x: 0, y: 3, .. }), "{error:?}");
 }
 
 #[test]
