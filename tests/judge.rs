@@ -3,7 +3,7 @@
 
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use rayon::prelude::*;
-use reference::{Arithmetic, Tracer};
+use reference::{Arithmetic, Ray, Tracer};
 use verify::directed::{KINDS, case};
 use verify::judge::band::band;
 use verify::judge::compare::{compare, ulps_apart};
@@ -212,4 +212,19 @@ fn bands_hold_what_the_forms_answer() {
     assert!(stated > cases, "the bound states something for hardly any ray");
     assert!(certain > stated / 3, "the bound rules hardly anything out");
     assert!(wrong > cases / 1000, "hardly any answer is wrong, so nothing was at stake");
+}
+
+/// Close by, a band is narrow: t within 2,000 units of rounding for the textbook form and 500 for the perpendicular, and a
+/// ray that passes by a ten-thousandth of the radius is a certain miss.
+#[test]
+fn bands_are_narrow_close_by() {
+    let ray = Ray { eye: [0.0; 3], dir: [0.0, 0.0, -1.0] };
+    let ball = |x: f32| Sphere { center: [x, 0.0, -5.0], radius: 1.0, color: [9; 3] };
+    for (rounding, units) in [(Rounding::TextbookF32, 2000.0), (Rounding::PerpendicularF32, 500.0)] {
+        let head_on = band(rounding, &ray, &ball(0.0)).expect("in range");
+        let [lo, hi] = head_on.may_hit.expect("head on");
+        assert!(!head_on.may_miss && hi - lo < units / f64::from(1u32 << 24), "{rounding:?}: {head_on:?}");
+        let beside = band(rounding, &ray, &ball(1.0001)).expect("in range");
+        assert_eq!((beside.may_miss, beside.may_hit), (true, None), "{rounding:?}");
+    }
 }
