@@ -192,9 +192,9 @@ fn the_checks_can_say_no() {
     (apart[0].center, apart[2].center) = ([0.0, -1.0, -1.0], [4.0, 1.0, 1.0]);
     let (scene, mut centered) = seen(by_center, &apart, &near);
     assert!(listing_is_complete(&centered, &scene).is_ok());
-    let mut walked = |seen: &Seen| {
+    let walked = |seen: &Seen| {
         let each = (0..200).map(|i| rays_are_walked(seen, &scene, &near, &mut generator(0, i)));
-        each.reduce(|a, b| a.and(b)).expect("200")
+        each.reduce(Result::and).expect("200")
     };
     assert!(walked(&centered).is_ok());
     centered.grid.as_mut().expect("in range").widen *= 0.5;
