@@ -61,6 +61,7 @@ fn sizes_have_limits() {
     assert_eq!(Size::new(100_000, 100_000), large(100_000, 100_000));
     assert_eq!(Size::new(u32::MAX, u32::MAX), large(u32::MAX, u32::MAX));
     assert_eq!(Size::new(MAX_SIDE + 1, 1), large(MAX_SIDE + 1, 1));
+    assert_eq!(Size::new(1, MAX_SIDE + 1), large(1, MAX_SIDE + 1));
     assert_eq!(Size::new(MAX_SIDE, MAX_SIDE), large(MAX_SIDE, MAX_SIDE));
     for (width, height) in [(1, 1), (3, 5), (1280, 720), (7680, 4320), (MAX_SIDE, 1)] {
         let size = Size::new(width, height).expect("within limits");
@@ -82,6 +83,9 @@ fn a_camera_without_a_picture_is_refused() {
     let size = Size::new(4, 4).expect("small");
     let (eye, corner, du, dv) = ([0.0; 3], [-2.0, 2.0, -4.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]);
     assert!(Camera::new(eye, corner, du, dv, size).is_ok());
+    for [du, dv] in [[[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]] {
+        assert!(Camera::new(eye, corner, du, dv, size).is_ok(), "{du:?}, {dv:?}");
+    }
     for bad in NOT_FINITE {
         let v = [0.0, bad, 0.0];
         let camera = [
@@ -103,6 +107,8 @@ fn a_camera_without_a_picture_is_refused() {
     let error =
         Camera::new(eye, corner, [f32::MAX, 0.0, 0.0], dv, size).expect_err("3.5 times the largest f32");
     assert!(matches!(error, CameraError::Overflow { x: 3, y: 0, .. }), "{error:?}");
+    let error = Camera::new(eye, corner, du, [0.0, f32::MAX, 0.0], size).expect_err("likewise");
+    assert!(matches!(error, CameraError::Overflow { x: 0, y: 3, .. }), "{error:?}");
 }
 
 #[test]

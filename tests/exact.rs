@@ -1,9 +1,9 @@
 //! Is the truth true? The filtered exact tracer against the unfiltered one, and both against answers that are
 //! known by construction.
 
-use contract::{DEFAULT_LIGHT, MISS, Scene, Size};
+use contract::{DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
 use rayon::prelude::*;
-use reference::{Arithmetic, Tracer, Undecided};
+use reference::{Arithmetic, Ray, Tracer, Undecided};
 use std::collections::BTreeMap;
 use verify::directed::{KINDS, Kind, case};
 use verify::scenes::catalogue::Source;
@@ -88,6 +88,38 @@ fn threads_change_nothing() {
             assert_eq!(bits(&one.image.t), bits(&other.image.t), "{arithmetic:?}, {threads} threads");
             assert_eq!(one.image.rgba, other.image.rgba, "{arithmetic:?}, {threads} threads");
             assert_eq!(one.undecided, other.undecided, "{arithmetic:?}, {threads} threads");
+        }
+    }
+}
+
+/// t halfway between two f32 goes to the one whose last bit is 0, be that below or above.
+#[test]
+fn ties_of_t_go_to_even() {
+    let two24 = 16_777_216.0f32;
+    let ray = Ray { eye: [0.0; 3], dir: [0.0, 0.0, 1.0] };
+    for (radius, t) in [(two24 - 1.0, two24), (two24 - 3.0, two24 + 4.0)] {
+        let sphere = Sphere { center: [0.0, 0.0, 2.0 * two24], radius, color: [9; 3] };
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("valid");
+        for arithmetic in [Arithmetic::Exact, Arithmetic::ExactUnfiltered, Arithmetic::F64] {
+            let hit = Tracer::new(arithmetic).trace(&ray, &scene).expect("head on");
+            assert_eq!(hit.t, t, "{arithmetic:?}, radius {radius}");
+        }
+    }
+}
+
+/// Where every step is exact in f64, the f64 form must give the known answer: roots, surfaces, tangents and ties.
+#[test]
+fn f64_is_exact_on_the_lattice() {
+    let kinds = [Kind::Tangent, Kind::Inside, Kind::OnSurface, Kind::Coincident, Kind::EqualRoots];
+    let (seed, cases) = (seed(), 10_000);
+    eprintln!("CGT_SEED={seed}, {cases} rays of each kind");
+    for kind in kinds {
+        for i in 0..cases {
+            let case = case(kind, &mut generator(seed, i));
+            let scene =
+                Scene::new(case.spheres.clone(), [0; 3], DEFAULT_LIGHT).expect("valid by construction");
+            let hit = Tracer::new(Arithmetic::F64).trace(&case.ray, &scene).map(|hit| (hit.id, hit.t));
+            assert_eq!(Some(hit), case.known, "case {i} of CGT_SEED={seed}: {case:?}");
         }
     }
 }

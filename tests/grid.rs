@@ -1,7 +1,7 @@
 //! Is the grid tracer's picture the naive one of the same form, bit for bit, on the whole scene matrix, whatever the plan,
 //! the level and the number of workers?
 
-use contract::{Image, MISS};
+use contract::{AMBIENT, Camera, DIFFUSE, Image, MISS, Scene, Size, Sphere};
 use optimized::plan::{Cells, Culling, Loop, OnEvent, Plan, Resolution, Sharing, Voxelizer};
 use optimized::{Event, Form, Level, Tracer};
 use rayon::prelude::*;
@@ -9,6 +9,7 @@ use reference::Arithmetic;
 use std::collections::BTreeMap;
 use std::io::Write;
 use verify::matrix::{Case, Matrix};
+use verify::scenes::catalogue::Source;
 
 fn matrix() -> Matrix {
     let matrix = Matrix::new().expect("all data that is there can be read");
@@ -163,5 +164,126 @@ fn events_are_never_silent() {
     for cells in [0, 65, 255] {
         let plan = Plan { resolution: Resolution::Fixed(cells), ..Plan::safe() };
         assert_eq!(render(plan).expect_err("no such grid"), optimized::RenderError::Resolution { cells });
+    }
+}
+
+/// 65,535 ids are what a queue can tell from empty; one more is an event, whatever the plan does then.
+#[test]
+fn ids_of_two_bytes_end_where_they_say() {
+    let loaded = Source::parse("lattice:41").and_then(|source| source.load()).expect("generated");
+    let all = loaded.animation.frames()[0].spheres();
+    let plan = Plan {
+        voxelizer: Voxelizer::ByCenter,
+        cells: Cells::Queue,
+        resolution: Resolution::Fixed(64),
+        ..Plan::safe()
+    };
+    let level = Level::best().expect("a level");
+    let camera = square([30.0, 30.0, 200.0]);
+    let render = |spheres: usize, on_event| {
+        let scene = Scene::new(all[..spheres].to_vec(), [0; 3], contract::DEFAULT_LIGHT).expect("valid");
+        Tracer::new(Plan { on_event, ..plan }, level).render(&scene, &camera)
+    };
+    let most = render(65_535, OnEvent::Refuse).expect("as many as there are ids");
+    assert_eq!(most.events.count(), 0);
+    let event = Event::TooManyIds { spheres: 65_536 };
+    let refused = render(65_536, OnEvent::Refuse).expect_err("one too many");
+    assert_eq!(refused, optimized::RenderError::Refused(event.clone()));
+    for on_event in [OnEvent::FallBack, OnEvent::GoOn] {
+        assert_eq!(render(65_536, on_event).expect("lists").events.first(), std::slice::from_ref(&event));
+    }
+}
+
+/// A camera of 8x8 pixels that looks from a point along -z.
+fn square(eye: [f32; 3]) -> Camera {
+    let size = Size::new(8, 8).expect("small");
+    Camera::new(eye, [-0.5, 0.5, -1.0], [0.125, 0.0, 0.0], [0.0, -0.125, 0.0], size).expect("a camera")
+}
+
+fn ball(center: [f32; 3], radius: f32) -> Sphere {
+    Sphere { center, radius, color: [200, 100, 50] }
+}
+
+/// A scene without margins is refused if the plan refuses, and each sphere that spans three cells is told of.
+#[test]
+fn every_event_is_told() {
+    let level = Level::best().expect("a level");
+    let render = |plan: Plan, spheres: Vec<Sphere>| {
+        let scene = Scene::new(spheres, [0; 3], contract::DEFAULT_LIGHT).expect("valid");
+        Tracer::new(plan, level).render(&scene, &square([0.0, 0.0, 9.0]))
+    };
+    let strict = Plan { on_event: OnEvent::Refuse, ..Plan::safe() };
+    let refused = render(strict, vec![ball([0.0; 3], 1e-20)]).expect_err("out of range");
+    assert_eq!(refused, optimized::RenderError::Refused(Event::OutOfRange));
+    let corners =
+        Plan { voxelizer: Voxelizer::EightCorners, resolution: Resolution::Fixed(8), ..Plan::safe() };
+    let spheres = vec![ball([0.0; 3], 1.0), ball([4.0; 3], 0.01), ball([1.0; 3], 1.0)];
+    let events = render(corners, spheres).expect("falls back").events;
+    let told: Vec<u32> = events
+        .first()
+        .iter()
+        .filter_map(|event| match event {
+            Event::SpansCells { sphere, .. } => Some(*sphere),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(told, [0, 2]);
+}
+
+/// A grid chosen for eight corners has cells wider than any sphere's box.
+#[test]
+fn cells_chosen_for_eight_corners_are_wide_enough() {
+    let (matrix, level) = (matrix(), Level::best().expect("a level"));
+    let plan = Plan {
+        voxelizer: Voxelizer::EightCorners,
+        resolution: Resolution::UpTo(64),
+        on_event: OnEvent::Refuse,
+        ..Plan::safe()
+    };
+    let small = matrix.cases.iter().filter(|case| case.scene.spheres().len() < 1_000);
+    let each = small.map(|case| match Tracer::new(plan, level).render(&case.scene, &case.camera) {
+        Err(optimized::RenderError::Refused(Event::OutOfRange)) => 0,
+        given => given.map(|_| 1).unwrap_or_else(|error| panic!("{}: {error}", case.name)),
+    });
+    assert!(each.sum::<u64>() > 100, "too little was at stake");
+}
+
+/// Rule 4 at both its ends and by its numbers: light that is far too bright, from behind, beyond f32, and none.
+#[test]
+fn light_of_any_length_is_clamped_alike() {
+    assert_eq!([AMBIENT, DIFFUSE], [0.5625, 0.4375], "rule 4");
+    let camera = square([0.0, 0.0, 4.0]);
+    let level = Level::best().expect("a level");
+    let lights = [[0.0; 3], [0.3, 0.2, 1.7], [-3.0, 1.0, -2.0], [3e38, -3e38, 3e38], [0.0, 0.0, 40.0]];
+    let mut shades = Vec::new();
+    for light in lights {
+        let scene = Scene::new(vec![ball([0.0, 0.0, 0.0], 1.5)], [7; 3], light).expect("finite");
+        let case = Case { name: format!("light {light:?}"), scene, camera };
+        for form in [Form::Textbook, Form::Perpendicular] {
+            let naive = naive(&case, form);
+            judge(&case, &naive, Plan { form, ..Plan::safe() }, level, 1);
+            shades.extend(naive.rgba);
+        }
+    }
+    // 200, 100, 50 in full, in no light at all, and by ambient light alone: times 0.5625 and rounded.
+    for rgba in [[200, 100, 50, 255], [0, 0, 0, 255], [113, 56, 28, 255]] {
+        assert!(shades.contains(&rgba), "{rgba:?} is nowhere");
+    }
+}
+
+/// What tracing cost is the sum over all workers, so it does not depend on how many there are.
+#[test]
+fn counts_are_those_of_all_workers() {
+    let matrix = matrix();
+    let case = matrix.cases.iter().find(|case| case.name.starts_with("1hvr")).expect("bundled");
+    let level = Level::best().expect("a level");
+    let counts = |workers: usize| {
+        let tracer = Tracer::new(Plan::safe(), level).workers(workers);
+        tracer.render(&case.scene, &case.camera).expect("safe").counts
+    };
+    let one = counts(1);
+    assert!(one.cells > 0 && one.candidates > one.culled && one.culled > 0, "{one:?}");
+    for workers in [2, 3, 8] {
+        assert_eq!(counts(workers), one, "{workers} workers");
     }
 }

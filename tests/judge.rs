@@ -1,9 +1,9 @@
 //! Can the judge be fooled? Pictures with one planted fault each must get the verdict and the counts that fit it;
 //! sound pictures of every form must not be called wrong.
 
-use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size};
+use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use rayon::prelude::*;
-use reference::{Arithmetic, Tracer};
+use reference::{Arithmetic, Ray, Tracer};
 use verify::directed::{KINDS, case};
 use verify::judge::band::band;
 use verify::judge::compare::{compare, ulps_apart};
@@ -67,6 +67,25 @@ fn sound_pictures_pass() {
     let other = bench.naive(Rounding::PerpendicularF32);
     let judgement = bench.judge(&f32, Promise::EqualToNaive(Rounding::TextbookF32), Some(&other));
     assert_eq!(judgement.verdict, Verdict::Wrong, "the picture of another form passed as the naive one");
+}
+
+/// The picture of a sphere that is hit, and of a second one behind it: the farther hit is one that its own bound explains,
+/// and still wrong, since the nearer is certain.
+#[test]
+fn a_sphere_behind_another_is_wrong() {
+    let ball = |z: f32, color: u8| Sphere { center: [0.0, 0.0, z], radius: 1.0, color: [color; 3] };
+    let scene = |spheres| Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+    let both = scene(vec![ball(-9.0, 200), ball(-5.0, 100)]);
+    let size = Size::new(1, 1).expect("a pixel");
+    let camera = Camera::new([0.0; 3], [-0.5, 0.5, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], size);
+    let camera = camera.expect("a camera");
+    let render = |scene| Tracer::new(Arithmetic::Exact).render(scene, &camera).expect("small").image;
+    let (truth, behind) = (render(&both), render(&scene(vec![ball(-9.0, 200)])));
+    assert_eq!([truth.ids[0], behind.ids[0]], [1, 0]);
+    for rounding in FORMS {
+        let judgement = judge(&both, &camera, &truth, &behind, Promise::Rounded(rounding), None);
+        assert_eq!(judgement.verdict, Verdict::Wrong, "{rounding:?}: {judgement:?}");
+    }
 }
 
 type Plant = (&'static str, fn(&Bench, &mut Image), fn(&Comparison) -> u64);
@@ -193,4 +212,19 @@ fn bands_hold_what_the_forms_answer() {
     assert!(stated > cases, "the bound states something for hardly any ray");
     assert!(certain > stated / 3, "the bound rules hardly anything out");
     assert!(wrong > cases / 1000, "hardly any answer is wrong, so nothing was at stake");
+}
+
+/// Close by, a band is narrow: t within 2,000 units of rounding for the textbook form and 500 for the perpendicular, and a
+/// ray that passes by a ten-thousandth of the radius is a certain miss.
+#[test]
+fn bands_are_narrow_close_by() {
+    let ray = Ray { eye: [0.0; 3], dir: [0.0, 0.0, -1.0] };
+    let ball = |x: f32| Sphere { center: [x, 0.0, -5.0], radius: 1.0, color: [9; 3] };
+    for (rounding, units) in [(Rounding::TextbookF32, 2000.0), (Rounding::PerpendicularF32, 500.0)] {
+        let head_on = band(rounding, &ray, &ball(0.0)).expect("in range");
+        let [lo, hi] = head_on.may_hit.expect("head on");
+        assert!(!head_on.may_miss && hi - lo < units / f64::from(1u32 << 24), "{rounding:?}: {head_on:?}");
+        let beside = band(rounding, &ray, &ball(1.0001)).expect("in range");
+        assert_eq!((beside.may_miss, beside.may_hit), (true, None), "{rounding:?}");
+    }
 }

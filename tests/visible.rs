@@ -5,7 +5,8 @@ use contract::{Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
 use optimized::Form;
 use optimized::event::Events;
 use optimized::host::Scalar;
-use optimized::plan::{Cells, OnEvent, Plan, Resolution, Voxelizer};
+use optimized::margin::in_range;
+use optimized::plan::{Cells, Margins, OnEvent, Plan, Resolution, Voxelizer};
 use optimized::seen::Seen;
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
@@ -51,9 +52,14 @@ fn check(plan: Plan, seed: u64, i: u64) -> Checked {
     let mut spheres = pins(size, offset);
     let distance = [0.1, 0.6, 3.0, 40.0, 1000.0][rng.random_range(0..5usize)] * size;
     let side = |rng: &mut _| if RngExt::random(rng) { 1.0 } else { -1.0 };
-    let eye: [f32; 3] = std::array::from_fn(|_| {
+    let mut eye: [f32; 3] = std::array::from_fn(|_| {
         offset + size * 0.5 + side(&mut rng) * distance * rng.random_range(0.1f32..1.0)
     });
+    // An eye at the origin leaves the rounding of distances alone to be covered.
+    if rng.random_range(0..4) == 0 {
+        eye[rng.random_range(0..3usize)] = 0.0;
+        eye[rng.random_range(0..3usize)] = 0.0;
+    }
     let camera = beam(eye, [offset + size * 0.5; 3], size * 1e-3, &mut rng).expect("a beam");
     let planes = match seen(plan, &spheres, &camera).1.grid {
         Some(grid) => grid.axes.map(|axis| axis.planes),
@@ -144,4 +150,81 @@ fn hits_are_visible_and_listings_complete() {
             );
         }
     }
+}
+
+/// What is seen is spoilt in one place each, and the checks must say so. The spheres stand in a line, so that by centre the
+/// grid has no extent on two axes.
+#[test]
+fn the_checks_can_say_no() {
+    let ball = |x: f32| Sphere { center: [x, 0.3, 0.2], radius: 0.5, color: [9; 3] };
+    let spheres = [ball(0.0), ball(2.0), ball(4.0)];
+    let size = Size::new(8, 8).expect("small");
+    let near = Camera::new([2.0, 0.3, 9.0], [-2.2, 0.6, -9.0], [0.55, 0.0, 0.0], [0.0, -0.15, 0.0], size);
+    let near = near.expect("a camera");
+    let plan = Plan { resolution: Resolution::Fixed(7), ..Plan::safe() };
+    let hits = |plan: Plan, camera: &Camera, spoil: &dyn Fn(&mut Seen)| {
+        let (scene, mut seen) = seen(plan, &spheres, camera);
+        let sound = hits_are_visible(&seen, &scene, camera).expect("not spoilt yet");
+        assert!(sound.hits > 2, "{sound:?}");
+        spoil(&mut seen);
+        hits_are_visible(&seen, &scene, camera).expect_err("spoilt")
+    };
+    let culled = hits(plan, &near, &|seen| seen.spheres[1].cull_radius = 0.01);
+    assert!(culled.starts_with("culled: sphere 1"), "{culled}");
+    let elsewhere = [ball(0.0), ball(4.0), ball(4.0)];
+    let lost = hits(plan, &near, &|seen| seen.grid = self::seen(plan, &elsewhere, &near).1.grid);
+    assert!(lost.contains("does not list the sphere: sphere 1"), "{lost}");
+    let by_center = Plan { voxelizer: Voxelizer::ByCenter, ..plan };
+    let unvisited = hits(by_center, &near, &|seen| seen.grid.as_mut().expect("in range").widen = 0.0);
+    assert!(unvisited.starts_with("the walk does not come to cell"), "{unvisited}");
+    // 2,000 radii away, where the textbook form reports hits beyond the surface.
+    let far = Camera::new([2.0, 0.3, 999.0], [-2.2, 0.6, -999.0], [0.55, 0.0, 0.0], [0.0, -0.15, 0.0], size);
+    let textbook = Plan { form: Form::Textbook, ..plan };
+    let beyond = hits(textbook, &far.expect("a camera"), &|seen| seen.plan.margins = Margins::None);
+    assert!(beyond.starts_with("the reported point lies beyond the reach"), "{beyond}");
+
+    let (scene, mut listed) = seen(plan, &spheres, &near);
+    assert!(listing_is_complete(&listed, &scene).is_ok());
+    listed.grid = seen(by_center, &spheres, &near).1.grid;
+    let incomplete = listing_is_complete(&listed, &scene).expect_err("listed by centre alone");
+    assert!(incomplete.contains("0 times"), "{incomplete}");
+    let mut apart = spheres;
+    (apart[0].center, apart[2].center) = ([0.0, -1.0, -1.0], [4.0, 1.0, 1.0]);
+    let (scene, mut centered) = seen(by_center, &apart, &near);
+    assert!(listing_is_complete(&centered, &scene).is_ok());
+    let walked = |seen: &Seen| {
+        let each = (0..200).map(|i| rays_are_walked(seen, &scene, &near, &mut generator(0, i)));
+        each.reduce(Result::and).expect("200")
+    };
+    assert!(walked(&centered).is_ok());
+    centered.grid.as_mut().expect("in range").widen *= 0.5;
+    let unwalked = walked(&centered).expect_err("spoilt");
+    assert!(unwalked.contains("a sphere with its centre at"), "{unwalked}");
+}
+
+/// Each limit of the range for which margins are derived, and one step beyond it.
+#[test]
+fn the_range_of_margins_ends_where_it_says() {
+    let billion = (1u32 << 30) as f32;
+    let size = Size::new(4, 4).expect("one block");
+    let ball = |x: f32, radius: f32| vec![Sphere { center: [1.0, x, -3.0], radius, color: [9; 3] }];
+    let is = |spheres: &[Sphere], eye: f32, corner: [f32; 3], du: f32| {
+        let camera = Camera::new([0.0, 0.0, eye], corner, [du, 0.0, 0.0], [0.0, -du, 0.0], size);
+        in_range(spheres, &camera.expect("a camera"))
+    };
+    let ahead = [-0.5, 0.5, -1.0];
+    for (inside, outside) in [
+        (ball(billion, 1.0), ball(billion.next_up(), 1.0)),
+        (ball(-billion, 1.0), ball((-billion).next_down(), 1.0)),
+        (ball(0.0, billion), ball(0.0, billion.next_up())),
+        (ball(0.0, 1.0 / billion), ball(0.0, (1.0 / billion).next_down())),
+    ] {
+        assert!(is(&inside, 0.0, ahead, 0.25), "{inside:?}");
+        assert!(!is(&outside, 0.0, ahead, 0.25), "{outside:?}");
+    }
+    let unit = ball(0.0, 1.0);
+    assert!(is(&unit, billion, ahead, 0.25) && !is(&unit, billion.next_up(), ahead, 0.25), "eye");
+    let short = |length: f32| is(&unit, 0.0, [-length, length, -length], length / 2.0);
+    assert!(short(2e-6) && !short(9e-7), "directions shorter than 2^-20");
+    assert!(short(1e5) && !short(1e6), "directions longer than 2^20");
 }
