@@ -287,3 +287,27 @@ fn counts_are_those_of_all_workers() {
         assert_eq!(counts(workers), one, "{workers} workers");
     }
 }
+
+/// The flattened loop does the work of the nested ones, no less and no more: what its step comes to without branching, in
+/// slices that the packet does not touch, is not met.
+#[test]
+fn both_loops_do_the_same_work() {
+    let matrix = matrix();
+    let level = Level::best().expect("a level");
+    let (mut candidates, mut cases) = (0, 0);
+    for case in matrix.cases.iter().step_by(9) {
+        for cells in [Cells::Lists, Cells::Queue] {
+            let counts = [Loop::Nested, Loop::Flattened].map(|walk| {
+                let plan = Plan { walk, cells, ..Plan::safe() };
+                Tracer::new(plan, level).render(&case.scene, &case.camera).expect("falls back").counts
+            });
+            assert_eq!(counts[0], counts[1], "nested, flattened; {}, {cells:?}", case.name);
+            candidates += counts[0].candidates;
+            cases += 1;
+        }
+    }
+    assert!(
+        cases > 60 && candidates > 100_000,
+        "too little was at stake: {cases} cases, {candidates} candidates"
+    );
+}
