@@ -73,7 +73,7 @@ fn share(scene: &Scene, cells: u8, view: usize) -> f64 {
         ..Framing::default()
     };
     let camera = framing.camera(&scene.clone().into()).expect("in view");
-    // The safe plan's picture is the naive one (tests/grid.rs), and comes 100 times as fast.
+    // The safe plan's picture is the naive one (tests/grid.rs), and comes much faster.
     let (expected, _) = render(Plan { form: Form::Textbook, ..Plan::safe() }, scene, &camera);
     let (given, events) = render(paper(cells), scene, &camera);
     let hits = expected.ids.iter().filter(|&&id| id != MISS).count();

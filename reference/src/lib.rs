@@ -7,7 +7,7 @@
 //!
 //! The simple program is [`Arithmetic::ExactUnfiltered`]: big integers for every decision. The one departure
 //! from it is the filter of [`Arithmetic::Exact`], f64 intervals that decide most cases first and hand over
-//! whatever they cannot decide. It makes the truth about 1,000 times cheaper and is tested against the simple
+//! whatever they cannot decide. It makes the truth far cheaper and is tested against the simple
 //! program. The other arithmetics are the usual roundings of the textbook.
 //!
 //! Rows are traced in parallel; no row knows another, so the picture does not depend on threads.

@@ -10,7 +10,7 @@ use thiserror::Error;
 pub enum Arithmetic {
     /// The truth: exact, by integers wherever f64 intervals cannot decide.
     Exact,
-    /// The truth, by integers alone: about 1,000 times slower.
+    /// The truth, by integers alone, and far slower.
     ExactUnfiltered,
     /// b² − a q in f64.
     F64,
