@@ -1,11 +1,11 @@
-//! Is the grid tracer's picture the naive one of the same form, bit for bit, on the whole scene matrix, whatever the plan,
+//! Is the grid tracer's picture the naive one of the same arithmetic, bit for bit, on the whole scene matrix, whatever the plan,
 //! the level and the number of workers?
 
 use contract::{AMBIENT, Camera, DIFFUSE, Image, MISS, Scene, Size, Sphere};
-use optimized::plan::{Cells, Culling, Loop, OnEvent, Plan, Resolution, Sharing, Voxelizer};
+use optimized::plan::{Arithmetic, Cells, Culling, Loop, OnEvent, Plan, Resolution, Sharing, Voxelizer};
 use optimized::{Event, Form, Level, Tracer};
 use rayon::prelude::*;
-use reference::Arithmetic;
+use reference::Arithmetic as Naive;
 use std::collections::BTreeMap;
 use std::io::Write;
 use verify::matrix::{Case, Matrix};
@@ -20,10 +20,14 @@ fn matrix() -> Matrix {
     matrix
 }
 
-fn naive(case: &Case, form: Form) -> Image {
-    let arithmetic = match form {
-        Form::Textbook => Arithmetic::F32Textbook,
-        Form::Perpendicular => Arithmetic::F32Perpendicular,
+const ARITHMETICS: [Arithmetic; 3] =
+    [Arithmetic::Rounded(Form::Textbook), Arithmetic::Rounded(Form::Perpendicular), Arithmetic::Certified];
+
+fn naive(case: &Case, arithmetic: Arithmetic) -> Image {
+    let arithmetic = match arithmetic {
+        Arithmetic::Rounded(Form::Textbook) => Naive::F32Textbook,
+        Arithmetic::Rounded(Form::Perpendicular) => Naive::F32Perpendicular,
+        Arithmetic::Certified => Naive::Exact,
     };
     reference::Tracer::new(arithmetic).threads(1).render(&case.scene, &case.camera).expect("small").image
 }
@@ -54,6 +58,9 @@ fn judge(case: &Case, naive: &Image, plan: Plan, level: Level, workers: usize) -
         ("candidates", counts.candidates),
         ("candidates culled", counts.culled),
         ("blocks split", counts.split_blocks),
+        ("marked by f32", counts.asked_f64),
+        ("undecided by f64", counts.asked_integers),
+        ("rounded by integers", counts.rounded_by_integers),
         ("queue overflows", count(|event| matches!(event, Event::CellFull { .. }))),
         ("spans of three cells", count(|event| matches!(event, Event::SpansCells { .. }))),
         ("scenes out of range", count(|event| matches!(event, Event::OutOfRange))),
@@ -74,13 +81,14 @@ fn report(stakes: &Stakes, none_of: &[&str]) {
     }
 }
 
-/// `Plan::safe()` in both forms on every case, at the best level.
+/// `Plan::safe()` in every arithmetic on every case, at the best level.
 #[test]
 fn the_safe_plan_changes_nothing_anywhere() {
     let (matrix, level) = (matrix(), Level::best().expect("a level"));
     let each = matrix.cases.par_iter().map(|case| {
-        [Form::Textbook, Form::Perpendicular]
-            .map(|form| judge(case, &naive(case, form), Plan { form, ..Plan::safe() }, level, 1))
+        ARITHMETICS.map(|arithmetic| {
+            judge(case, &naive(case, arithmetic), Plan { arithmetic, ..Plan::safe() }, level, 1)
+        })
     });
     let stakes = each.flatten_iter().reduce(Stakes::new, sum);
     report(&stakes, &["queue overflows", "spans of three cells"]);
@@ -95,14 +103,14 @@ fn plans() -> Vec<Plan> {
             for walk in [Loop::Nested, Loop::Flattened] {
                 for culling in [Culling::None, Culling::Planes] {
                     for resolution in [Resolution::Fixed(5), Resolution::UpTo(40)] {
-                        for form in [Form::Textbook, Form::Perpendicular] {
+                        for arithmetic in ARITHMETICS {
                             plans.push(Plan {
                                 voxelizer,
                                 cells,
                                 walk,
                                 culling,
                                 resolution,
-                                form,
+                                arithmetic,
                                 ..Plan::safe()
                             });
                         }
@@ -131,12 +139,12 @@ fn every_combination_changes_nothing() {
             }
         }
     }
-    assert_eq!(plans.len(), 128, "a choice was added or lost");
-    assert_eq!(tasks.len(), 128 * levels.len() * workers.len());
+    assert_eq!(plans.len(), 192, "a choice was added or lost");
+    assert_eq!(tasks.len(), 192 * levels.len() * workers.len());
     eprintln!("levels: {}", levels.iter().map(|level| level.name()).collect::<Vec<_>>().join(", "));
     let each = tasks.par_iter().map(|&(plan, level, workers, case)| {
         let case = &matrix.cases[case];
-        judge(case, &naive(case, plan.form), plan, level, workers)
+        judge(case, &naive(case, plan.arithmetic), plan, level, workers)
     });
     let stakes = each.reduce(Stakes::new, sum);
     report(&stakes, &[]);
@@ -259,9 +267,9 @@ fn light_of_any_length_is_clamped_alike() {
     for light in lights {
         let scene = Scene::new(vec![ball([0.0, 0.0, 0.0], 1.5)], [7; 3], light).expect("finite");
         let case = Case { name: format!("light {light:?}"), scene, camera };
-        for form in [Form::Textbook, Form::Perpendicular] {
-            let naive = naive(&case, form);
-            judge(&case, &naive, Plan { form, ..Plan::safe() }, level, 1);
+        for arithmetic in ARITHMETICS {
+            let naive = naive(&case, arithmetic);
+            judge(&case, &naive, Plan { arithmetic, ..Plan::safe() }, level, 1);
             shades.extend(naive.rgba);
         }
     }

@@ -142,7 +142,11 @@ fn render_all() -> usize {
     let (corner, du, dv) = ([-2.5, 2.0, -5.0], [0.55, 0.0, 0.0], [0.0, -0.55, 0.0]);
     let camera = Camera::new([1.5, 1.5, 6.0], corner, du, dv, size).expect("a camera");
     let queues = Plan { voxelizer: Voxelizer::EightCorners, cells: Cells::Queue, ..Plan::safe() };
-    let plans = [Plan::safe(), Plan { walk: Loop::Nested, form: Form::Textbook, ..queues }, Plan::paper()];
+    let plans = [
+        Plan::safe(),
+        Plan { walk: Loop::Nested, arithmetic: Form::Textbook.into(), ..queues },
+        Plan::paper(),
+    ];
     let render = |level: &Level, plan: Plan| {
         let image = Tracer::new(plan, *level).render(&scene, &camera).expect("a picture").image;
         image.ids.iter().filter(|&&id| id < 16).count()

@@ -74,7 +74,7 @@ fn share(scene: &Scene, cells: u8, view: usize) -> f64 {
     };
     let camera = framing.camera(&scene.clone().into()).expect("in view");
     // The safe plan's picture is the naive one (tests/grid.rs), and comes much faster.
-    let (expected, _) = render(Plan { form: Form::Textbook, ..Plan::safe() }, scene, &camera);
+    let (expected, _) = render(Plan { arithmetic: Form::Textbook.into(), ..Plan::safe() }, scene, &camera);
     let (given, events) = render(paper(cells), scene, &camera);
     let hits = expected.ids.iter().filter(|&&id| id != MISS).count();
     let wrong = (0..expected.ids.len()).filter(|&i| expected.ids[i] != given.ids[i]).count();
@@ -95,7 +95,7 @@ fn a_seventeenth_sphere_pushes_out_the_first() {
     spheres.push(Sphere { center: [4.0; 3], radius: 0.01, color: [1; 3] });
     let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
     let camera = towards([2.5, 2.5, 10.0], [2.5, 2.5, 0.0]);
-    let (expected, _) = render(Plan { form: Form::Textbook, ..Plan::safe() }, &scene, &camera);
+    let (expected, _) = render(Plan { arithmetic: Form::Textbook.into(), ..Plan::safe() }, &scene, &camera);
     let (given, events) = render(paper(4), &scene, &camera);
     assert!(expected.ids.contains(&0) && !given.ids.contains(&0), "sphere 0 should be seen, and be lost");
     let lost: Vec<_> = events.first().to_vec();
@@ -111,7 +111,7 @@ fn eight_corners_miss_the_middle() {
     spheres.push(Sphere { center: [5.0; 3], radius: 0.01, color: [1; 3] });
     let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
     let camera = towards([2.5, 2.5, 30.0], [2.5, 2.5, 0.0]);
-    let (expected, _) = render(Plan { form: Form::Textbook, ..Plan::safe() }, &scene, &camera);
+    let (expected, _) = render(Plan { arithmetic: Form::Textbook.into(), ..Plan::safe() }, &scene, &camera);
     let (given, events) = render(paper(5), &scene, &camera);
     let missing = (0..expected.ids.len()).filter(|&i| expected.ids[i] == 0 && given.ids[i] == MISS).count();
     assert!(missing > 0, "nothing is missing");

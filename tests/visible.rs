@@ -6,7 +6,7 @@ use optimized::Form;
 use optimized::event::Events;
 use optimized::host::Scalar;
 use optimized::margin::in_range;
-use optimized::plan::{Cells, Margins, OnEvent, Plan, Resolution, Voxelizer};
+use optimized::plan::{Arithmetic, Cells, Margins, OnEvent, Plan, Resolution, Voxelizer};
 use optimized::seen::Seen;
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
@@ -15,6 +15,9 @@ use verify::visible::{Checked, hits_are_visible, listing_is_complete, rays_are_w
 
 const VOXELIZERS: [Voxelizer; 4] =
     [Voxelizer::EightCorners, Voxelizer::BoxRange, Voxelizer::Overlap, Voxelizer::ByCenter];
+
+const ARITHMETICS: [Arithmetic; 3] =
+    [Arithmetic::Rounded(Form::Textbook), Arithmetic::Rounded(Form::Perpendicular), Arithmetic::Certified];
 
 /// Two spheres that pin the grid's ends, so that spheres added between them leave its planes where they are.
 fn pins(size: f32, offset: f32) -> Vec<Sphere> {
@@ -123,11 +126,11 @@ fn hits_are_visible_and_listings_complete() {
     let (seed, scenes) = (seed(), count("CGT_VISIBLE_SCENES", 600));
     eprintln!("CGT_SEED={seed}, {scenes} scenes for each plan");
     for voxelizer in VOXELIZERS {
-        for form in [Form::Textbook, Form::Perpendicular] {
+        for arithmetic in ARITHMETICS {
             let resolution = Resolution::Fixed(if voxelizer == Voxelizer::EightCorners { 4 } else { 7 });
             let plan = Plan {
                 voxelizer,
-                form,
+                arithmetic,
                 resolution,
                 cells: Cells::Lists,
                 on_event: OnEvent::FallBack,
@@ -137,7 +140,7 @@ fn hits_are_visible_and_listings_complete() {
                 .into_par_iter()
                 .map(|i| check(plan, seed, i))
                 .reduce(Checked::default, |a, b| a + b);
-            eprintln!("{voxelizer:?}, {form:?}: {checked:?}");
+            eprintln!("{voxelizer:?}, {arithmetic:?}: {checked:?}");
             assert!(
                 checked.hits > scenes * 10 && checked.overlapping > scenes * 5,
                 "too little was at stake: {checked:?}"
@@ -145,7 +148,7 @@ fn hits_are_visible_and_listings_complete() {
             assert!(checked.points > scenes * 10 && checked.balls > scenes * 10, "{checked:?}");
             assert!(checked.near_planes > scenes / 20, "hardly a point near a plane: {checked:?}");
             assert!(
-                form == Form::Perpendicular || checked.beyond_surface > scenes,
+                arithmetic != Form::Textbook.into() || checked.beyond_surface > scenes,
                 "no point beyond a surface"
             );
         }
@@ -179,7 +182,7 @@ fn the_checks_can_say_no() {
     assert!(unvisited.starts_with("the walk does not come to cell"), "{unvisited}");
     // 2,000 radii away, where the textbook form reports hits beyond the surface.
     let far = Camera::new([2.0, 0.3, 999.0], [-2.2, 0.6, -999.0], [0.55, 0.0, 0.0], [0.0, -0.15, 0.0], size);
-    let textbook = Plan { form: Form::Textbook, ..plan };
+    let textbook = Plan { arithmetic: Form::Textbook.into(), ..plan };
     let beyond = hits(textbook, &far.expect("a camera"), &|seen| seen.plan.margins = Margins::None);
     assert!(beyond.starts_with("the reported point lies beyond the reach"), "{beyond}");
 

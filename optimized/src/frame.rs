@@ -6,8 +6,9 @@ use crate::event::{Events, RenderError};
 use crate::machine::{LANES, Machine, three};
 use crate::plan::{Plan, Sharing};
 use crate::seen::{Counts, Seen};
+use crate::settle::Answers;
 use crate::shade::{Surface, shade};
-use crate::sphere::{NONE, Nearest};
+use crate::sphere::NONE;
 use contract::{Camera, Image, Scene};
 use std::sync::Mutex;
 
@@ -90,8 +91,8 @@ fn fill<M: Machine>(
     for x in (0..camera.size().width()).step_by(BLOCK as usize) {
         let (xs, ys) = middles(m, camera, x, stripe.y);
         let block = lanes.block(m, xs, ys);
-        let nearest = seen.trace(m, &block, counts);
-        write(m, scene, seen, &block, &nearest, x as usize, camera.size().width() as usize, stripe);
+        let answers = seen.trace(m, scene.spheres(), &block, counts);
+        write(m, scene, seen, &block, &answers, x as usize, camera.size().width() as usize, stripe);
     }
 }
 
@@ -103,12 +104,12 @@ fn write<M: Machine>(
     scene: &Scene,
     seen: &Seen,
     block: &Block<M>,
-    nearest: &Nearest<M>,
+    answers: &Answers,
     x: usize,
     width: usize,
     stripe: &mut Stripe<'_>,
 ) {
-    let (ids, t) = (m.to_array_i(nearest.id), m.to_array(nearest.t));
+    let Answers { t, id: ids } = *answers;
     if ids == [NONE; LANES] {
         return;
     }
@@ -127,7 +128,7 @@ fn write<M: Machine>(
     let surface = Surface { center: gather(m, center), radius: m.lanes(radius), color: gather(m, color) };
     let (eye, light) = (spread(m, seen.eye), spread(m, scene.light()));
     let rgb = three(
-        shade(m, eye, block.dir, light, nearest.t, &surface),
+        shade(m, eye, block.dir, light, m.lanes(t), &surface),
         #[inline(always)]
         |channel| m.to_array_i(channel),
     );

@@ -36,6 +36,8 @@ pub struct Frustum<M: Machine> {
     pub forward: bool,
     /// |d_X| of each ray.
     pub speed: M::F,
+    /// d_Y/|d_X| and d_Z/|d_X| of each ray.
+    pub slope: [M::F; 2],
     /// Lowest and highest slope of the second and the third axis, in every lane.
     slopes: [[M::F; 2]; 2],
 }
@@ -84,7 +86,9 @@ impl<M: Machine> Frustum<M> {
         if m.any(stray, Site::Incoherent) {
             return None;
         }
-        Some(Self { order, forward, speed, slopes: [range(m, y, speed), range(m, z, speed)] })
+        let slope = [m.div(y, speed), m.div(z, speed)];
+        let slopes = [range(m, slope[0]), range(m, slope[1])];
+        Some(Self { order, forward, speed, slope, slopes })
     }
 
     /// Rim: the slopes as plain numbers.
@@ -188,8 +192,7 @@ fn steeper<M: Machine>(m: M, d: M::F, speed: M::F) -> M::B {
 
 /// Lowest and highest slope of all rays.
 #[inline(always)]
-fn range<M: Machine>(m: M, d: M::F, speed: M::F) -> [M::F; 2] {
-    let slope = m.div(d, speed);
+fn range<M: Machine>(m: M, slope: M::F) -> [M::F; 2] {
     [m.smallest(slope), m.largest(slope)]
 }
 

@@ -34,6 +34,9 @@ pub mod host;
 pub mod camera;
 pub mod sphere;
 
+pub mod bound;
+pub mod certain;
+
 pub mod margin;
 
 pub mod queue;
@@ -47,6 +50,12 @@ pub mod frustum;
 pub mod cull;
 
 pub mod walk;
+
+pub mod double;
+pub mod integer;
+
+pub mod exact;
+pub mod settle;
 
 pub mod seen;
 

@@ -31,6 +31,9 @@
 //! |P − c|² <= r² + 21u (F² + r²) + 40u (F + r) S + (20u (F + r))². We take **R² = r² + 64u (F + r)²**. At
 //! F = 2,000 r that is R = 4 r: the textbook form really does report hits that far out.
 //!
+//! *Certified.* The hit is the true one, whose point is on the surface: **R = r**. Its P is that of the true root, not of the
+//! rounded t; the walk's early end goes by an upper bound of the root, below which no visited slice is missing.
+//!
 //! # Range
 //!
 //! The derivation knows no over- or underflow. [`in_range`] makes sure of that: positions up to 2³⁰, radii from
@@ -38,19 +41,20 @@
 //! underflow of 2⁻¹⁴⁹ anywhere stays below u times the terms kept (the nearest case, D w under the root, moves
 //! P by 2⁻⁵⁴ <= u r). A scene out of range is still rendered, with every sphere a candidate of every ray.
 
-use crate::plan::Margins;
+use crate::plan::{Arithmetic, Margins};
 use crate::sphere::Form;
 use contract::{Camera, Sphere};
 
 /// 64 units of f32 rounding.
 const SLACK: f64 = 64.0 / (1u32 << 24) as f64;
 
-/// The radius within which every reported hit of the form lies, rounded up; the bare radius without margins.
+/// The radius within which every reported hit lies, rounded up; the bare radius without margins.
 ///
 /// `f` is eye − centre, `radius` the sphere's.
 #[must_use]
 #[allow(clippy::cast_possible_truncation, reason = "rounded up right after")]
-pub fn reach(margins: Margins, form: Form, f: [f32; 3], radius: f32) -> f32 {
+pub fn reach(margins: Margins, arithmetic: Arithmetic, f: [f32; 3], radius: f32) -> f32 {
+    let Arithmetic::Rounded(form) = arithmetic else { return radius };
     if margins == Margins::None {
         return radius;
     }

@@ -63,6 +63,21 @@ pub enum Margins {
     Derived,
 }
 
+/// How a hit is decided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Arithmetic {
+    /// As one of the f32 forms rounds it (the paper).
+    Rounded(Form),
+    /// As it is in truth: f32 where its error bound allows ([`crate::certain`]), else f64, else integers ([`crate::settle`]).
+    Certified,
+}
+
+impl From<Form> for Arithmetic {
+    fn from(form: Form) -> Self {
+        Self::Rounded(form)
+    }
+}
+
 /// Cells on each axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Resolution {
@@ -102,7 +117,7 @@ pub struct Plan {
     pub walk: Loop,
     pub culling: Culling,
     pub margins: Margins,
-    pub form: Form,
+    pub arithmetic: Arithmetic,
     pub resolution: Resolution,
     pub on_event: OnEvent,
     pub sharing: Sharing,
@@ -118,7 +133,7 @@ impl Plan {
             walk: Loop::Flattened,
             culling: Culling::Planes,
             margins: Margins::None,
-            form: Form::Textbook,
+            arithmetic: Arithmetic::Rounded(Form::Textbook),
             resolution: Resolution::Fixed(16),
             on_event: OnEvent::GoOn,
             sharing: Sharing::Mirrored,
@@ -135,14 +150,20 @@ impl Plan {
             walk: Loop::Flattened,
             culling: Culling::Planes,
             margins: Margins::Derived,
-            form: Form::Perpendicular,
+            arithmetic: Arithmetic::Rounded(Form::Perpendicular),
             resolution: Resolution::UpTo(32),
             on_event: OnEvent::FallBack,
             sharing: Sharing::Shared,
         }
     }
 
-    /// Whether the plan promises the naive picture of its form for every scene it does not refuse.
+    /// What a user wants: the exact picture.
+    #[must_use]
+    pub fn fast() -> Self {
+        Self { arithmetic: Arithmetic::Certified, walk: Loop::Nested, ..Self::safe() }
+    }
+
+    /// Whether the plan promises the naive picture of its arithmetic for every scene it does not refuse.
     #[must_use]
     pub fn promises_equality(&self) -> bool {
         self.on_event != OnEvent::GoOn && self.margins == Margins::Derived && self.walk != Loop::Printed
@@ -175,9 +196,10 @@ impl fmt::Display for Plan {
             Margins::None => "no margins",
             Margins::Derived => "derived margins",
         };
-        let form = match self.form {
-            Form::Textbook => "textbook f32",
-            Form::Perpendicular => "perpendicular f32",
+        let arithmetic = match self.arithmetic {
+            Arithmetic::Rounded(Form::Textbook) => "textbook f32",
+            Arithmetic::Rounded(Form::Perpendicular) => "perpendicular f32",
+            Arithmetic::Certified => "certified exact",
         };
         let on_event = match self.on_event {
             OnEvent::GoOn => "goes on in any event",
@@ -188,7 +210,7 @@ impl fmt::Display for Plan {
             Sharing::Shared => "one grid",
             Sharing::Mirrored => "a grid for each worker",
         };
-        write!(f, "{voxelizer} into {cells}, {walk}, {culling}, {margins}, {form}, ")?;
+        write!(f, "{voxelizer} into {cells}, {walk}, {culling}, {margins}, {arithmetic}, ")?;
         match self.resolution {
             Resolution::Fixed(n) => write!(f, "{n} cells on an axis, ")?,
             Resolution::UpTo(n) => write!(f, "up to {n} cells on an axis, ")?,

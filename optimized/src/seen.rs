@@ -1,17 +1,20 @@
 //! A frame's scene as seen from its camera: what is made once a frame and read by every packet. Spheres relative to
-//! the eye, their radii for culling, and the grid.
+//! the eye, their radii for culling and the bounds on their rounding, and the grid. And a packet's way through it.
 
+use crate::bound::{self, Bound};
 use crate::camera::Block;
+use crate::certain::{self, Ball, Rays, Side};
 use crate::cull::{self, Planes};
 use crate::event::{Event, Events, RenderError};
 use crate::frustum::{Frustum, Slices};
 use crate::grid::{Bounds, Grid};
 use crate::machine::{LANES, Machine, three};
 use crate::margin;
-use crate::plan::{Culling, Margins, OnEvent, Plan};
-use crate::sphere::{NONE, Nearest, Prepared};
+use crate::plan::{Arithmetic, Culling, Margins, OnEvent, Plan};
+use crate::settle::{Answers, Question};
+use crate::sphere::{Form, Nearest, Prepared};
 use crate::walk::{Visitor, walk};
-use contract::{Camera, Scene};
+use contract::{Camera, Scene, Sphere};
 
 /// 1 + 2⁻²⁰: more than the roundings of t |d_X| and of a slice's distance.
 const BEYOND: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
@@ -25,12 +28,14 @@ pub struct Seen {
     pub plan: Plan,
     /// The spheres relative to the eye, by id.
     pub spheres: Vec<Prepared>,
+    /// Their bounds and the eye's side, if the plan's arithmetic is certified.
+    pub bounds: Vec<(Bound, Side)>,
     /// The grid; `None` if there is nothing to hit, or if margins are wanted for a scene for which there are none: then
     /// every sphere is met by every ray.
     pub grid: Option<Grid>,
 }
 
-/// What tracing cost, and what culling saved.
+/// What tracing cost, what culling saved, and how far the certified stages were needed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Cells visited by packets.
@@ -41,6 +46,14 @@ pub struct Counts {
     pub culled: u64,
     /// Blocks whose rays went one by one for want of a common major axis.
     pub split_blocks: u64,
+    /// Lanes answered by certified arithmetic.
+    pub lanes: u64,
+    /// Of these, marked by f32, so that f64 was asked about every sphere that may be hit.
+    pub asked_f64: u64,
+    /// Of these, not decided by f64, so that integers were asked.
+    pub asked_integers: u64,
+    /// Lanes whose sphere was certain, while only integers knew to which f32 its t is rounded.
+    pub rounded_by_integers: u64,
 }
 
 impl std::ops::Add for Counts {
@@ -52,6 +65,10 @@ impl std::ops::Add for Counts {
             candidates: self.candidates + other.candidates,
             culled: self.culled + other.culled,
             split_blocks: self.split_blocks + other.split_blocks,
+            lanes: self.lanes + other.lanes,
+            asked_f64: self.asked_f64 + other.asked_f64,
+            asked_integers: self.asked_integers + other.asked_integers,
+            rounded_by_integers: self.rounded_by_integers + other.rounded_by_integers,
         }
     }
 }
@@ -68,82 +85,133 @@ impl Seen {
         camera: &Camera,
         events: &mut Events,
     ) -> Result<Self, RenderError> {
-        let eye = camera.eye();
-        let mut spheres: Vec<Prepared> = scene.spheres().iter().map(|s| Prepared::new(eye, s)).collect();
-        let mut seen = Self { eye, plan, spheres: Vec::new(), grid: None };
-        if plan.margins == Margins::Derived && !margin::in_range(scene.spheres(), camera) {
+        let (eye, scene) = (camera.eye(), scene.spheres());
+        let mut spheres: Vec<Prepared> = scene.iter().map(|s| Prepared::new(eye, s)).collect();
+        let bounds = match plan.arithmetic {
+            Arithmetic::Rounded(_) => Vec::new(),
+            Arithmetic::Certified => scene.iter().map(|s| bounds(eye, s)).collect(),
+        };
+        let mut seen = Self { eye, plan, spheres: Vec::new(), bounds, grid: None };
+        if plan.margins == Margins::Derived && !margin::in_range(scene, camera) {
             events.push(Event::OutOfRange);
             if plan.on_event == OnEvent::Refuse {
                 return Err(RenderError::Refused(Event::OutOfRange));
             }
         } else if !spheres.is_empty() {
-            let ball = |(p, s): (&mut Prepared, &contract::Sphere)| {
-                let reach = margin::reach(plan.margins, plan.form, p.f, s.radius);
+            let ball = |(p, s): (&mut Prepared, &Sphere)| {
+                let reach = margin::reach(plan.margins, plan.arithmetic, p.f, s.radius);
                 p.cull_radius = cull::radius(plan.margins, p.f, reach);
                 match plan.margins {
                     Margins::None => Bounds::nearest(s.center, reach),
                     Margins::Derived => Bounds::outward(s.center, reach),
                 }
             };
-            let balls: Vec<Bounds> = spheres.iter_mut().zip(scene.spheres()).map(ball).collect();
+            let balls: Vec<Bounds> = spheres.iter_mut().zip(scene).map(ball).collect();
             seen.grid = Some(Grid::build(m, &plan, &balls, events)?);
         }
         seen.spheres = spheres;
         Ok(seen)
     }
 
-    /// The nearest hit of each ray of a block. Rays without a common major axis go one by one.
+    /// t and id of each ray of a block, in the scene that this was made of.
     #[inline(always)]
-    pub fn trace<M: Machine>(&self, m: M, block: &Block<M>, counts: &mut Counts) -> Nearest<M> {
-        let Some(grid) = &self.grid else {
-            counts.candidates += self.spheres.len() as u64;
-            let mut nearest = Nearest::none(m);
-            for (sphere, id) in self.spheres.iter().zip(0..) {
-                nearest = nearest.meet(m, self.plan.form, block, sphere, id);
-            }
-            return nearest;
-        };
-        match Frustum::of_block(m, block) {
-            Some(frustum) => self.trace_packet(m, grid, block, &frustum, counts),
-            None => self.trace_singly(m, grid, block, counts),
-        }
-    }
-
-    /// Sixteen times the same ray is a packet with a frustum of its own.
-    #[inline(always)]
-    fn trace_singly<M: Machine>(
+    pub fn trace<M: Machine>(
         &self,
         m: M,
-        grid: &Grid,
+        scene: &[Sphere],
         block: &Block<M>,
         counts: &mut Counts,
-    ) -> Nearest<M> {
+    ) -> Answers {
+        let Some(grid) = &self.grid else { return self.trace_all(m, scene, block, counts) };
+        if let Some(frustum) = Frustum::of_block(m, block) {
+            return self.trace_packet(m, grid, scene, block, &frustum, [0, LANES], counts);
+        }
+        // Sixteen times the same ray is a packet with a frustum of its own.
         counts.split_blocks += 1;
-        let (mut t, mut id) = ([f32::INFINITY; LANES], [NONE; LANES]);
-        let dir = three(
-            block.dir,
-            #[inline(always)]
-            |d| m.to_array(d),
-        );
+        let dir = arrays(m, block);
+        let mut answers = Answers::NONE;
         for lane in 0..LANES {
             let ray = Block::new(m, [m.splat(dir[0][lane]), m.splat(dir[1][lane]), m.splat(dir[2][lane])]);
             // A direction of zero has no major axis, and hits nothing.
             let Some(frustum) = Frustum::of_block(m, &ray) else { continue };
-            let nearest = self.trace_packet(m, grid, &ray, &frustum, counts);
-            (t[lane], id[lane]) = (m.to_array(nearest.t)[lane], m.to_array_i(nearest.id)[lane]);
+            let alone = self.trace_packet(m, grid, scene, &ray, &frustum, [lane, lane + 1], counts);
+            (answers.t[lane], answers.id[lane]) = (alone.t[lane], alone.id[lane]);
         }
-        Nearest { t: m.lanes(t), id: m.lanes_i(id) }
+        answers
+    }
+
+    /// Every sphere is a candidate of every ray.
+    fn trace_all<M: Machine>(
+        &self,
+        m: M,
+        scene: &[Sphere],
+        block: &Block<M>,
+        counts: &mut Counts,
+    ) -> Answers {
+        counts.candidates += self.spheres.len() as u64;
+        match self.plan.arithmetic {
+            Arithmetic::Rounded(form) => {
+                let mut nearest = Nearest::none(m);
+                for (sphere, id) in self.spheres.iter().zip(0..) {
+                    nearest = nearest.meet(m, form, block, sphere, id);
+                }
+                Answers { t: m.to_array(nearest.t), id: m.to_array_i(nearest.id) }
+            }
+            Arithmetic::Certified => {
+                let all: Vec<u32> = (0..).zip(&self.spheres).map(|(id, _)| id).collect();
+                let open = certain::Nearest { rival: m.splat(0.0), ..certain::Nearest::none(m) };
+                self.question(m, scene, block).settle(m, &open, &all, [0, LANES], counts)
+            }
+        }
     }
 
     #[inline(always)]
+    fn question<'a, M: Machine>(&self, m: M, scene: &'a [Sphere], block: &Block<M>) -> Question<'a> {
+        Question { eye: self.eye, dir: arrays(m, block), spheres: scene }
+    }
+
+    /// The lanes `wanted` of a packet; the others may be misses.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments, reason = "all of it differs from packet to packet")]
     fn trace_packet<M: Machine>(
         &self,
         m: M,
         grid: &Grid,
+        scene: &[Sphere],
         block: &Block<M>,
         frustum: &Frustum<M>,
+        wanted: [usize; 2],
         counts: &mut Counts,
-    ) -> Nearest<M> {
+    ) -> Answers {
+        match self.plan.arithmetic {
+            Arithmetic::Rounded(form) => {
+                let rounded = Rounded { form, block, frustum, nearest: Nearest::none(m) };
+                let nearest = self.walk(m, grid, frustum, rounded, counts).nearest;
+                Answers { t: m.to_array(nearest.t), id: m.to_array_i(nearest.id) }
+            }
+            Arithmetic::Certified => {
+                let rays = Rays::new(m, frustum.slope);
+                let certified = Certified {
+                    rays,
+                    bounds: &self.bounds,
+                    nearest: certain::Nearest::none(m),
+                    possible: Vec::new(),
+                };
+                let found = self.walk(m, grid, frustum, certified, counts);
+                self.question(m, scene, block).settle(m, &found.nearest, &found.possible, wanted, counts)
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn walk<M: Machine, H: Hits<M>>(
+        &self,
+        m: M,
+        grid: &Grid,
+        frustum: &Frustum<M>,
+        hits: H,
+        counts: &mut Counts,
+    ) -> H {
         let slices = frustum.slices(m, self.eye, grid, self.plan.margins);
         let planes = match self.plan.culling {
             Culling::None => None,
@@ -152,40 +220,121 @@ impl Seen {
         let strides = grid.strides();
         let [x, y, z] = frustum.order;
         let stride = [strides[x], strides[y], strides[z]];
-        let nearest = Nearest::none(m);
+        let spheres = &self.spheres;
         let mut meeting = Meeting {
             m,
-            seen: self,
+            spheres,
+            margins: self.plan.margins,
             grid,
-            block,
             frustum,
             slices: &slices,
             planes,
             stride,
-            nearest,
+            hits,
             counts: *counts,
         };
         walk(m, self.plan.walk, &slices, &mut meeting);
         *counts = meeting.counts;
-        meeting.nearest
+        meeting.hits
+    }
+}
+
+/// The bound of a sphere, and on which side of its surface the eye is, in f64 from f32: each of the two squares is off by less
+/// than 6 · 2⁻⁵³ of itself (see [`crate::double`]).
+fn bounds(eye: [f32; 3], sphere: &Sphere) -> (Bound, Side) {
+    let f = [0, 1, 2].map(|i| f64::from(eye[i]) - f64::from(sphere.center[i]));
+    let r = f64::from(sphere.radius);
+    let (ff, rr) = (f[0] * f[0] + f[1] * f[1] + f[2] * f[2], r * r);
+    let slack = (ff + rr) / (1u64 << 50) as f64;
+    let side = if ff - rr > slack {
+        Side::Outside
+    } else if ff - rr < -slack {
+        Side::Inside
+    } else {
+        Side::Unknown
+    };
+    (Bound::new(bound::NEAREST, f.iter().fold(0.0, |m, x| m.max(x.abs())), r), side)
+}
+
+/// Rim: directions by axis and lane.
+#[inline(always)]
+fn arrays<M: Machine>(m: M, block: &Block<M>) -> [[f32; LANES]; 3] {
+    three(
+        block.dir,
+        #[inline(always)]
+        |d| m.to_array(d),
+    )
+}
+
+/// What a packet knows of its hits.
+trait Hits<M: Machine> {
+    /// Takes a sphere into account, whose centre relative to the eye is given along (A, Y, Z).
+    fn meet(&mut self, m: M, sphere: &Prepared, center: [f32; 3], id: u32);
+
+    /// How far along A from the eye each ray's nearest hit is at most.
+    fn reached(&self, m: M) -> M::F;
+}
+
+/// In one of the f32 forms.
+struct Rounded<'a, M: Machine> {
+    form: Form,
+    block: &'a Block<M>,
+    frustum: &'a Frustum<M>,
+    nearest: Nearest<M>,
+}
+
+impl<M: Machine> Hits<M> for Rounded<'_, M> {
+    #[inline(always)]
+    fn meet(&mut self, m: M, sphere: &Prepared, _: [f32; 3], id: u32) {
+        self.nearest = self.nearest.meet(m, self.form, self.block, sphere, id.cast_signed());
+    }
+
+    #[inline(always)]
+    fn reached(&self, m: M) -> M::F {
+        m.mul(self.nearest.t, self.frustum.speed)
+    }
+}
+
+/// With certainty, or not at all.
+struct Certified<'a, M: Machine> {
+    rays: Rays<M>,
+    bounds: &'a [(Bound, Side)],
+    nearest: certain::Nearest<M>,
+    /// Ids of spheres that some ray may hit, some more than once.
+    possible: Vec<u32>,
+}
+
+impl<M: Machine> Hits<M> for Certified<'_, M> {
+    #[inline(always)]
+    fn meet(&mut self, m: M, sphere: &Prepared, center: [f32; 3], id: u32) {
+        let (bound, side) = self.bounds[id as usize];
+        if let Some(found) = self.rays.find(m, &Ball { center, rr: sphere.rr, bound, side }) {
+            self.nearest = self.nearest.meet(m, &found, id.cast_signed());
+            self.possible.push(id);
+        }
+    }
+
+    #[inline(always)]
+    fn reached(&self, _: M) -> M::F {
+        self.nearest.hi
     }
 }
 
 /// A packet meeting the spheres of the cells it visits.
-struct Meeting<'a, M: Machine> {
+struct Meeting<'a, M: Machine, H> {
     m: M,
-    seen: &'a Seen,
+    spheres: &'a [Prepared],
+    margins: Margins,
     grid: &'a Grid,
-    block: &'a Block<M>,
     frustum: &'a Frustum<M>,
     slices: &'a Slices,
     planes: Option<Planes<M>>,
     stride: [usize; 3],
-    nearest: Nearest<M>,
+    hits: H,
     counts: Counts,
 }
 
-impl<M: Machine> Visitor<M> for Meeting<'_, M> {
+impl<M: Machine, H: Hits<M>> Visitor<M> for Meeting<'_, M, H> {
     #[inline(always)]
     fn visit(&mut self, slice: usize, j: i32, k: i32, live: bool) {
         let i = self.frustum.slice_index(self.slices.count, slice);
@@ -204,31 +353,31 @@ impl<M: Machine> Visitor<M> for Meeting<'_, M> {
     #[inline(always)]
     fn unfinished(&self, slice: usize) -> M::B {
         let m = self.m;
-        let (beyond, widen) = match self.seen.plan.margins {
+        let (beyond, widen) = match self.margins {
             Margins::None => (1.0, self.grid.widen),
             Margins::Derived => (BEYOND, self.grid.widen * BEYOND),
         };
-        let reached = m.mul(m.mul(self.nearest.t, self.frustum.speed), m.splat(beyond));
+        let reached = m.mul(self.hits.reached(m), m.splat(beyond));
         let end = m.splat(self.slices.far[slice]);
         m.not(m.le(m.add(reached, m.splat(widen)), end))
     }
 }
 
-impl<M: Machine> Meeting<'_, M> {
+impl<M: Machine, H: Hits<M>> Meeting<'_, M, H> {
     #[inline(always)]
     fn meet(&mut self, id: u32) {
         let m = self.m;
-        let sphere = &self.seen.spheres[id as usize];
+        let sphere = &self.spheres[id as usize];
         self.counts.candidates += 1;
+        let [x, y, z] = sphere.f;
+        let center = self.frustum.along([-x, -y, -z]);
         if let Some(planes) = &self.planes {
-            let [x, y, z] = sphere.f;
-            let center = self.frustum.along([-x, -y, -z]);
             let center = [m.splat(center[0]), m.splat(center[1]), m.splat(center[2])];
             if planes.cull(m, center, m.splat(sphere.cull_radius)) {
                 self.counts.culled += 1;
                 return;
             }
         }
-        self.nearest = self.nearest.meet(m, self.seen.plan.form, self.block, sphere, id.cast_signed());
+        self.hits.meet(m, sphere, center, id);
     }
 }

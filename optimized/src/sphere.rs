@@ -1,5 +1,5 @@
 //! Sixteen rays against one sphere, in the two f32 forms of the contract (rule 5), bit for bit, and the
-//! nearest hit so far.
+//! nearest hit so far. (The truth is asked for in [`crate::certain`].)
 //!
 //! All rays of a frame start at one eye, so what depends on the sphere and the eye alone is made once a frame
 //! ([`Prepared`]): f = eye − c, r², and for the textbook form q = f·f − r². The operations and their order are

@@ -7,7 +7,7 @@
 
 use contract::{Camera, Image, Scene};
 use criterion::{BenchmarkId, Criterion};
-use optimized::{Level, Plan, Tracer};
+use optimized::{Form, Level, Plan, Rendering, Tracer};
 use reference::Arithmetic;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -23,53 +23,105 @@ const FRAMES: u32 = 10;
 /// What is wanted of the best level.
 const WANTED: f64 = 10.0;
 
+/// Where certainty is priced, and at most how much it is to cost.
+const SCENES: [&str; 4] = ["1hvr", "adk", "sphereflake:4", "uniform:2000:1"];
+const AT_MOST: f64 = 1.4;
+
 struct Input {
+    name: &'static str,
     scene: Scene,
     camera: Camera,
 }
 
 impl Input {
-    fn new() -> Self {
-        let animation = Source::parse("1hvr").and_then(|source| source.load()).expect("bundled").animation;
-        let camera = Framing::default().camera(&animation).expect("1HVR can be seen");
-        Self { scene: animation.frames()[0].clone(), camera }
+    fn new(name: &'static str) -> Option<Self> {
+        let animation = match Source::parse(name).and_then(|source| source.load()) {
+            Ok(loaded) => loaded.animation,
+            Err(error) => {
+                eprintln!("not judged: {error}");
+                return None;
+            }
+        };
+        let camera = Framing::default().camera(&animation).expect("it can be seen");
+        Some(Self { name, scene: animation.frames()[0].clone(), camera })
     }
 
-    fn naive(&self, threads: usize) -> Image {
-        let tracer = reference::Tracer::new(Arithmetic::F32Perpendicular).threads(threads);
+    fn naive(&self, arithmetic: Arithmetic, threads: usize) -> Image {
+        let tracer = reference::Tracer::new(arithmetic).threads(threads);
         tracer.render(&self.scene, &self.camera).expect("it fits").image
     }
 
+    fn grid(&self, plan: Plan, level: Level, threads: usize) -> Rendering {
+        let tracer = Tracer::new(plan, level).workers(threads);
+        tracer.render(&self.scene, &self.camera).expect("the plan refuses nothing")
+    }
+
     fn safe(&self, level: Level, threads: usize) -> Image {
-        let tracer = Tracer::new(Plan::safe(), level).workers(threads);
-        tracer.render(&self.scene, &self.camera).expect("the plan refuses nothing").image
+        self.grid(Plan::safe(), level, threads).image
     }
 
     /// Time of a naive frame, and of a frame at each level, in one round.
     fn round(&self, threads: usize, levels: &[Level]) -> (Duration, Vec<Duration>) {
-        let time = |frames: u32, frame: &dyn Fn() -> Image| {
-            let start = Instant::now();
-            for _ in 0..frames {
-                black_box(frame());
-            }
-            start.elapsed() / frames
-        };
-        let naive = time(1, &|| self.naive(threads));
-        (naive, levels.iter().map(|&level| time(FRAMES, &|| self.safe(level, threads))).collect())
+        let naive = time(1, || self.naive(Arithmetic::F32Perpendicular, threads));
+        (naive, levels.iter().map(|&level| time(FRAMES, || self.safe(level, threads))).collect())
     }
+}
+
+fn time<R>(frames: u32, frame: impl Fn() -> R) -> Duration {
+    let start = Instant::now();
+    for _ in 0..frames {
+        black_box(frame());
+    }
+    start.elapsed() / frames
 }
 
 /// # Panics
 /// If a picture differs by a bit.
-fn check(input: &Input, levels: &[Level]) {
-    let naive = input.naive(2);
+fn check(input: &Input, plan: Plan, naive: Arithmetic, levels: &[Level]) {
+    let naive = input.naive(naive, 2);
     let bits = |image: &Image| image.t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
     for level in levels {
         for threads in THREADS {
-            let safe = input.safe(*level, threads);
-            let equal = safe.ids == naive.ids && safe.rgba == naive.rgba && bits(&safe) == bits(&naive);
-            assert!(equal, "{level}, {threads} threads: the pictures differ, there is nothing to time");
+            let grid = input.grid(plan, *level, threads).image;
+            let equal = grid.ids == naive.ids && grid.rgba == naive.rgba && bits(&grid) == bits(&naive);
+            let name = input.name;
+            assert!(
+                equal,
+                "{name}, {level}, {threads} threads: the pictures differ, there is nothing to time"
+            );
         }
+    }
+}
+
+/// What certainty costs: `Plan::fast()` against the same plan in the perpendicular form, one thread, the best level.
+fn certainty(level: Level) {
+    let rounded = Plan { arithmetic: Form::Perpendicular.into(), ..Plan::fast() };
+    let mut product = (0, 1.0);
+    for input in SCENES.into_iter().filter_map(Input::new) {
+        check(&input, Plan::fast(), Arithmetic::Exact, &[level]);
+        let round = |plan: Plan| time(FRAMES, || input.grid(plan, level, 1));
+        let rounds: Vec<_> = (0..ROUNDS).map(|_| (round(rounded), round(Plan::fast()))).collect();
+        let plain = median(rounds.iter().map(|(plain, _)| *plain).collect());
+        let certified = median(rounds.iter().map(|(_, certified)| *certified).collect());
+        let counts = input.grid(Plan::fast(), level, 1).counts;
+        let in_a_million = |n: u64| n as f64 * 1e6 / counts.lanes as f64;
+        eprintln!(
+            "{}: {level}, perpendicular {:.2} ms, certified {:.2} ms, {:.2} times as much; of a million rays {:.1} to f64, \
+             {:.1} to integers, {:.1} rounded by integers",
+            input.name,
+            1e3 * plain,
+            1e3 * certified,
+            certified / plain,
+            in_a_million(counts.asked_f64),
+            in_a_million(counts.asked_integers),
+            in_a_million(counts.rounded_by_integers)
+        );
+        product = (product.0 + 1, product.1 * certified / plain);
+    }
+    let mean = product.1.powf(1.0 / f64::from(product.0));
+    eprintln!("{} scenes: certified costs {mean:.2} times as much, at most {AT_MOST} is wanted", product.0);
+    if mean > AT_MOST {
+        eprintln!("MISSED: certified arithmetic is to cost at most {AT_MOST} times the perpendicular form");
     }
 }
 
@@ -95,8 +147,9 @@ fn ratios(input: &Input, levels: &[Level]) {
 }
 
 fn main() {
-    let (input, levels) = (Input::new(), Level::available());
-    check(&input, &levels);
+    let (input, levels) = (Input::new("1hvr").expect("bundled"), Level::available());
+    certainty(*levels.last().expect("scalar at least"));
+    check(&input, Plan::safe(), Arithmetic::F32Perpendicular, &levels);
     ratios(&input, &levels);
     let mut criterion = Criterion::default().configure_from_args().sample_size(10);
     for threads in THREADS {
@@ -104,7 +157,7 @@ fn main() {
         for level in &levels {
             group.bench_function(BenchmarkId::new("safe", level), |b| b.iter(|| input.safe(*level, threads)));
         }
-        group.bench_function("naive", |b| b.iter(|| input.naive(threads)));
+        group.bench_function("naive", |b| b.iter(|| input.naive(Arithmetic::F32Perpendicular, threads)));
         group.finish();
     }
     criterion.final_summary();

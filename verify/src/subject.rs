@@ -1,9 +1,10 @@
 //! What is judged: any tracer that takes a scene and a camera and gives an image, with its promise.
 
 use contract::{Camera, Image, Scene};
-use optimized::plan::Resolution;
+use optimized::plan::{Arithmetic, Resolution};
+use optimized::seen::Counts;
 use optimized::{Event, Events, Form, Level, Plan};
-use reference::Arithmetic;
+use reference::Arithmetic as Naively;
 
 /// What a subject says of its own answers. A judge holds it to that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,11 +31,11 @@ pub enum Rounding {
 impl Rounding {
     /// The reference's arithmetic of this form.
     #[must_use]
-    pub fn naive(self) -> Arithmetic {
+    pub fn naive(self) -> Naively {
         match self {
-            Self::TextbookF64 => Arithmetic::F64,
-            Self::TextbookF32 => Arithmetic::F32Textbook,
-            Self::PerpendicularF32 => Arithmetic::F32Perpendicular,
+            Self::TextbookF64 => Naively::F64,
+            Self::TextbookF32 => Naively::F32Textbook,
+            Self::PerpendicularF32 => Naively::F32Perpendicular,
         }
     }
 }
@@ -140,11 +141,13 @@ pub enum NamedPlan {
     Paper,
     /// [`Plan::safe`].
     Safe,
+    /// [`Plan::fast`].
+    Fast,
 }
 
 impl NamedPlan {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Safe, Self::Paper];
+    pub const ALL: [Self; 3] = [Self::Fast, Self::Safe, Self::Paper];
 
     /// Its name.
     #[must_use]
@@ -152,6 +155,7 @@ impl NamedPlan {
         match self {
             Self::Paper => "paper",
             Self::Safe => "safe",
+            Self::Fast => "fast",
         }
     }
 
@@ -161,6 +165,7 @@ impl NamedPlan {
         match self {
             Self::Paper => Plan::paper(),
             Self::Safe => Plan::safe(),
+            Self::Fast => Plan::fast(),
         }
     }
 }
@@ -202,10 +207,11 @@ impl Subject for Grid {
 
     /// The paper claims no less: its grid is to lose nothing.
     fn promise(&self) -> Promise {
-        Promise::EqualToNaive(match self.plan.form {
-            Form::Textbook => Rounding::TextbookF32,
-            Form::Perpendicular => Rounding::PerpendicularF32,
-        })
+        match self.plan.arithmetic {
+            Arithmetic::Rounded(Form::Textbook) => Promise::EqualToNaive(Rounding::TextbookF32),
+            Arithmetic::Rounded(Form::Perpendicular) => Promise::EqualToNaive(Rounding::PerpendicularF32),
+            Arithmetic::Certified => Promise::Exact,
+        }
     }
 
     fn render(
@@ -224,8 +230,23 @@ impl Subject for Grid {
             "{} cells visited, {} candidates found in them, {} of these culled, {} blocks split.",
             counts.cells, counts.candidates, counts.culled, counts.split_blocks
         ));
+        if self.plan.arithmetic == Arithmetic::Certified {
+            notes.push(stages(&counts));
+        }
         Ok(Rendered { image: rendering.image, notes })
     }
+}
+
+/// How many rays needed which stage of certified arithmetic, in all and in a million.
+fn stages(counts: &Counts) -> String {
+    let part = |n: u64| format!("{n} ({:.1} in a million)", n as f64 * 1e6 / counts.lanes.max(1) as f64);
+    format!(
+        "Of {} rays f32 left {} to f64, which left {} to integers; integers rounded the t of {} more.",
+        counts.lanes,
+        part(counts.asked_f64),
+        part(counts.asked_integers),
+        part(counts.rounded_by_integers)
+    )
 }
 
 /// How many of each kind of event there were, and the first of each in full.

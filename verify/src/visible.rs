@@ -12,12 +12,12 @@ use optimized::frustum::{Frustum, Slices};
 use optimized::grid::{Axis, Grid};
 use optimized::host::Scalar;
 use optimized::machine::LANES;
-use optimized::plan::{Culling, Voxelizer};
+use optimized::plan::{Arithmetic, Culling, Voxelizer};
 use optimized::seen::Seen;
 use optimized::sphere::Prepared;
 use optimized::{Form, margin};
 use rand::{Rng, RngExt};
-use reference::{Arithmetic, Ray, Tracer};
+use reference::{Arithmetic as Naive, Ray, Tracer};
 
 /// How much was checked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -92,7 +92,7 @@ fn for_each_ray(
 ) -> Result<(), String> {
     let Some(grid) = &seen.grid else { return Ok(()) };
     let reach =
-        |(p, s): (&Prepared, &Sphere)| margin::reach(seen.plan.margins, seen.plan.form, p.f, s.radius);
+        |(p, s): (&Prepared, &Sphere)| margin::reach(seen.plan.margins, seen.plan.arithmetic, p.f, s.radius);
     let farthest = seen.spheres.iter().zip(scene.spheres()).map(reach).fold(0.0, f32::max);
     let m = Scalar;
     let lanes = CameraLanes::new(m, camera);
@@ -132,9 +132,10 @@ struct Packet<'a> {
 impl Packet<'_> {
     fn check_hit(&self, id: u32, sphere: &Sphere, checked: &mut Checked) -> Result<(), String> {
         let plan = &self.seen.plan;
-        let form = match plan.form {
-            Form::Textbook => Arithmetic::F32Textbook,
-            Form::Perpendicular => Arithmetic::F32Perpendicular,
+        let form = match plan.arithmetic {
+            Arithmetic::Rounded(Form::Textbook) => Naive::F32Textbook,
+            Arithmetic::Rounded(Form::Perpendicular) => Naive::F32Perpendicular,
+            Arithmetic::Certified => Naive::Exact,
         };
         let alone = Scene::new(vec![*sphere], [0; 3], [0.0; 3]).map_err(|e| e.to_string())?;
         let Some(hit) = Tracer::new(form).trace(&self.ray, &alone) else { return Ok(()) };
@@ -142,16 +143,25 @@ impl Packet<'_> {
             |what: &str| Err(format!("{what}: sphere {id} {sphere:?}, {:?}, {hit:?}, {plan}", self.ray));
         let point = Point::on(&self.ray, hit.t);
         let f = self.seen.spheres[id as usize].f;
-        let reach = margin::reach(plan.margins, plan.form, f, sphere.radius);
-        if !point.within(sphere.center, reach) {
-            return say("the reported point lies beyond the reach");
-        }
-        let cell = match plan.voxelizer {
-            Voxelizer::ByCenter => {
+        let reach = margin::reach(plan.margins, plan.arithmetic, f, sphere.radius);
+        let cell = match (plan.voxelizer, plan.arithmetic) {
+            (Voxelizer::ByCenter, _) => {
                 [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &(integer(sphere.center[i]) << 149)))
             }
-            _ => [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &point.0[i])),
+            (_, Arithmetic::Rounded(_)) => self.cell(&point),
+            // The true point lies between those of t's neighbours, and so does its cell.
+            (_, Arithmetic::Certified) => {
+                let [before, after] = [hit.t.next_down(), hit.t.next_up()];
+                let cell = self.cell(&Point::on(&self.ray, before));
+                if cell != self.cell(&Point::on(&self.ray, after)) {
+                    return Ok(());
+                }
+                cell
+            }
         };
+        if plan.arithmetic != Arithmetic::Certified && !point.within(sphere.center, reach) {
+            return say("the reported point lies beyond the reach");
+        }
         if times_listed(self.grid, cell, id) == 0 {
             return say(&format!("cell {cell:?} holds the point and does not list the sphere"));
         }
@@ -165,6 +175,10 @@ impl Packet<'_> {
         checked.beyond_surface +=
             u64::from(!point.within(sphere.center, sphere.radius * (1.0 + 1.0 / 1_048_576.0)));
         Ok(())
+    }
+
+    fn cell(&self, point: &Point) -> [usize; 3] {
+        [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &point.0[i]))
     }
 
     /// Whether the walk comes to a cell.
@@ -230,8 +244,7 @@ impl Packet<'_> {
                 continue;
             }
             let say = |what: &str| Err(format!("{what}: t = {t:?}, {ray:?}, {}", self.seen.plan));
-            self.visits([0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &point.0[i])))
-                .or_else(|why| say(&why))?;
+            self.visits(self.cell(&point)).or_else(|why| say(&why))?;
             checked.points += 1;
             self.check_center(&point, rng).or_else(|why| say(&why))?;
 
@@ -262,7 +275,7 @@ pub fn listing_is_complete(seen: &Seen, scene: &Scene) -> Result<Checked, String
     let Some(grid) = &seen.grid else { return Ok(checked) };
     for (id, sphere) in (0..).zip(scene.spheres()) {
         let prepared = &seen.spheres[id as usize];
-        let reach = margin::reach(seen.plan.margins, seen.plan.form, prepared.f, sphere.radius);
+        let reach = margin::reach(seen.plan.margins, seen.plan.arithmetic, prepared.f, sphere.radius);
         for cell in all_cells(grid) {
             let holds = match seen.plan.voxelizer {
                 Voxelizer::ByCenter => {

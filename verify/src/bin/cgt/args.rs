@@ -45,8 +45,9 @@ pub(crate) enum Command {
     Scenes,
 }
 
-const SUBJECTS: [&str; 5] = ["naive-f64", "naive-f32-perpendicular", "naive-f32-textbook", "safe", "paper"];
-const PLANS: [&str; 2] = ["safe", "paper"];
+const SUBJECTS: [&str; 6] =
+    ["naive-f64", "naive-f32-perpendicular", "naive-f32-textbook", "fast", "safe", "paper"];
+const PLANS: [&str; 3] = ["fast", "safe", "paper"];
 
 #[derive(Args, Debug)]
 pub(crate) struct Verify {
@@ -63,7 +64,7 @@ pub(crate) struct Verify {
     /// best, or the one that CGT_LEVEL names]
     #[arg(long, value_name = "LEVEL")]
     pub(crate) level: Option<String>,
-    /// Cells of the grid on each axis, 1 to 64 [default: 16 for the plan `paper`, chosen for the scene for `safe`]
+    /// Cells of the grid on each axis, 1 to 64 [default: 16 for the plan `paper`, chosen for the scene for the others]
     #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(1..=64))]
     pub(crate) grid: Option<u8>,
     /// Folder of the report; files of the same names in it are replaced
@@ -98,7 +99,9 @@ pub(crate) enum Method {
     NaiveF32Perpendicular,
     /// One loop over all spheres, textbook form in f32
     NaiveF32Textbook,
-    /// Packets through a grid, with the plan `safe`: perpendicular form in f32
+    /// Packets through a grid, with the plan `fast`: the truth, exact
+    Fast,
+    /// The same with the plan `safe`: perpendicular form in f32
     Safe,
     /// The same with the plan `paper`: textbook form in f32, spheres lost where cells overflow
     Paper,

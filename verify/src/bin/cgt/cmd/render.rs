@@ -35,6 +35,7 @@ pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
         Method::NaiveF64 => naive(Rounding::TextbookF64)?,
         Method::NaiveF32Perpendicular => naive(Rounding::PerpendicularF32)?,
         Method::NaiveF32Textbook => naive(Rounding::TextbookF32)?,
+        Method::Fast => grid(NamedPlan::Fast)?,
         Method::Safe => grid(NamedPlan::Safe)?,
         Method::Paper => grid(NamedPlan::Paper)?,
     };

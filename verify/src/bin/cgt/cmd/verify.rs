@@ -70,7 +70,7 @@ fn levels(args: &Verify) -> Result<Vec<Level>, Failure> {
     })
 }
 
-/// The naive tracers and the plan `safe`, or those that were asked for.
+/// The naive tracers and the plans `fast` and `safe`, or those that were asked for.
 fn subjects(args: &Verify, levels: &[Level]) -> Vec<Box<dyn Subject>> {
     let named = |name: &str| args.subjects.iter().chain(&args.plans).any(|n| n == name);
     let all = args.subjects.is_empty() && args.plans.is_empty();
@@ -81,7 +81,7 @@ fn subjects(args: &Verify, levels: &[Level]) -> Vec<Box<dyn Subject>> {
         }
     }
     for plan in NamedPlan::ALL {
-        if named(plan.name()) || (all && plan == NamedPlan::Safe) {
+        if named(plan.name()) || (all && plan != NamedPlan::Paper) {
             let at = |level: &Level| Grid::new(plan, *level, levels.len() > 1, args.grid);
             subjects.extend(levels.iter().map(|level| Box::new(at(level)) as Box<dyn Subject>));
         }

@@ -1,0 +1,135 @@
+//! How far the f32 decision of [`crate::certain`] can be from the truth: the error bound of a sphere, for all rays.
+//!
+//! In: the unit roundoff of the arithmetic, how far the centre is from the eye, the radius. Out: three numbers in f32. Nothing
+//! here is measured; every step below is an inequality in real numbers. `tests/bound.rs` runs the kernel on floats of few bits, over
+//! all inputs of a domain, and finds that the bound holds for each and that half of it does not.
+//!
+//! # What is computed
+//!
+//! In coordinates relative to the eye, with the packet's major axis A first and pointing ahead, a sphere has its centre at
+//! (c_A, c_Y, c_Z), m = max |c_i|, and a ray has the slopes y = d_Y/|d_A| and z = d_Z/|d_A|, both at most 1 in magnitude. Let
+//!
+//! ```text
+//! e_Y = c_Y − y c_A      e_Z = c_Z − z c_A      e_X = e_Y z − e_Z y
+//! a = 1 + y² + z²        D = a r² − |e|²        h = c_A + (y e_Y + z e_Z) / a
+//! ```
+//!
+//! e is the cross product of centre and (1, y, z), so |e| = √a L with L the distance of the centre from the line: the ray hits if
+//! and only if D >= 0 (and not behind the eye), and its roots, as distances along A, are h ± √D / a. They are t |d_A|, in
+//! the order of the t. No root of a sphere needs the length of d, and no step subtracts large numbers to get a small one but
+//! the first, where the ray's distance from the centre arises.
+//!
+//! # Model
+//!
+//! fl(x ∘ y) = (x ∘ y)(1 + δ), |δ| <= u: u = 2⁻ᵖ for p bits rounded to nearest ([`NEAREST`]: 2⁻²⁴), twice that for truncation
+//! ([`TRUNCATING`]). γ_k = (1 + u)ᵏ − 1 bounds k of them. What follows holds for every u < 1/8, not to first order only. Over- and
+//! underflow are excluded by [`in_range`]; where it says no, the bound is infinite, and the sphere is never decided in f32.
+//!
+//! # The sign of D
+//!
+//! The centre is rounded once (c is a difference of f32), so is each slope. Then with K = (1 + u)(u + γ_3)
+//!
+//! ```text
+//! |ê_Y − e_Y| <= γ_2 |e_Y| + K |y c_A|                        since |c_Y| <= |e_Y| + |y c_A|; likewise Z
+//! ```
+//!
+//! The map (e_Y, e_Z) → e stretches by at most √a. The products in e_X have three roundings each. So, with a <= 3,
+//!
+//! ```text
+//! |ê − e| <= P + R |e|,   P = (√6 + 2γ_3) K m,   R = √3 γ_2 + √2 γ_3 (1 + γ_2)
+//! ```
+//!
+//! |ê|² is summed with at most three roundings on a term. The computed a is off by at most β = (γ_2 + 2γ_5)/3 of itself, a r² by
+//! κ = (1 + β)(1 + u)² − 1. Let ρ = √3 r >= √a r, x = P + R ρ, and z what is subtracted last, before its rounding.
+//!
+//! - If D >= 0, then |e| <= ρ and z >= −[κρ² + γ_3 (ρ + x)² + 2ρx + x²].
+//! - If D < 0, then |e| > √a r, and |ê| >= |e| − R|e| − P; hence z <= (κ + γ_3) ρ² + 2ρx. (If the lower bound of |ê| is negative,
+//!   then a r² itself is below that.)
+//!
+//! The last rounding adds u (ρ² + the larger). These are the two thresholds, [`Bound::miss_below`] and
+//! [`Bound::hit_above`]; between them nothing is known. For a true hit they bound the error of D from both sides as well.
+//!
+//! # The root
+//!
+//! Of a true hit, |h − c_A| <= r, since the foot of the perpendicular lies within the sphere. 1/a is off by η = (1 + u)/(1 − β) − 1
+//! of itself, so a product with it by τ − 1, τ = (1 + η)(1 + u). With the same |ê − e|, for Y and Z alone,
+//!
+//! ```text
+//! |(ŷ ê_Y + ẑ ê_Z) / a − (h − c_A)| <= τ [2/3 (1 + γ_3) K m + √(2/3) (γ_2 + γ_3 (1 + γ_2)) r] + (τ − 1) r
+//! ```
+//!
+//! to which u m comes from c_A, and u times the sum. The half chord is taken from D with its threshold added or subtracted, so
+//! it is right but for its own roundings, ((1 + η)(1 + u)³ − 1) of at most r + √(both thresholds). Two more sums of at most m + 2r
+//! and so on are rounded. All of that together is [`Bound::root`].
+
+/// Unit roundoff of f32 rounded to nearest.
+pub const NEAREST: f64 = 1.0 / (1u32 << 24) as f64;
+/// Unit roundoff of f32 truncated, as the SPU does.
+pub const TRUNCATING: f64 = 1.0 / (1u32 << 23) as f64;
+
+/// 1 + 2⁻¹⁰: over the few f64 roundings of the bound, and over what underflows within [`in_range`].
+const SLACK: f64 = 1.0 + 1.0 / 1024.0;
+
+/// What rounding can do to a sphere, whatever the ray. In scene units, squared for the first two.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bound {
+    /// A computed D above this is positive in truth.
+    pub hit_above: f32,
+    /// A computed D below this is negative in truth.
+    pub miss_below: f32,
+    /// The computed ends of a root's interval are off by at most this.
+    pub root: f32,
+}
+
+impl Bound {
+    /// Decides nothing.
+    pub const NONE: Self =
+        Self { hit_above: f32::INFINITY, miss_below: f32::NEG_INFINITY, root: f32::INFINITY };
+
+    /// The bound for a centre whose coordinates are at most `farthest` from the eye's, in an arithmetic of that unit roundoff.
+    #[must_use]
+    pub fn new(unit: f64, farthest: f64, radius: f64) -> Self {
+        if !in_range(farthest, radius) {
+            return Self::NONE;
+        }
+        let (u, m, r) = (unit, farthest, radius);
+        let gamma = |k| (1.0 + u).powi(k) - 1.0;
+        let (g2, g3, g5) = (gamma(2), gamma(3), gamma(5));
+        let (root2, root3, root6) = (2f64.sqrt(), 3f64.sqrt(), 6f64.sqrt());
+        let k = (1.0 + u) * (u + g3);
+        let p = (root6 + 2.0 * g3) * k * m;
+        let relative = root3 * g2 + root2 * g3 * (1.0 + g2);
+        let beta = (g2 + 2.0 * g5) / 3.0;
+        let kappa = (1.0 + beta) * (1.0 + u) * (1.0 + u) - 1.0;
+        let rho = root3 * r;
+        let x = p + relative * rho;
+        let above = (kappa + g3) * rho * rho + 2.0 * rho * x;
+        let below = kappa * rho * rho + g3 * (rho + x) * (rho + x) + 2.0 * rho * x + x * x;
+        let last = u * (rho * rho + below);
+        let (above, below) = (above + last, below + last);
+
+        let eta = (1.0 + u) / (1.0 - beta) - 1.0;
+        let tau = (1.0 + eta) * (1.0 + u);
+        let across = (2.0 / 3.0) * (1.0 + g3) * k * m + (2.0f64 / 3.0).sqrt() * (g2 + g3 * (1.0 + g2)) * r;
+        let offset = tau * across + (tau - 1.0) * r;
+        let middle = u * m + offset + u * ((1.0 + u) * m + r + offset);
+        let chord = r + (above + below).sqrt();
+        let half = ((1.0 + eta) * gamma(3) + eta) * chord;
+        let ends = 2.0 * u * (1.0 + u) * (m + r + chord + middle + half);
+        let root = (middle + half + ends) * (1.0 + u) / (1.0 - u);
+        Self { hit_above: up(above), miss_below: -up(below), root: up(root) }
+    }
+}
+
+/// Whether no step of the kernel over- or underflows in a way that counts: centres within 2⁴⁰ of the eye, radii from 2⁻⁴⁰ to
+/// 2⁴⁰. The largest product is then below 2⁸⁵. A slope, a square or a product that underflows is off by 2⁻¹⁵⁰, so D by less than
+/// 2⁻¹⁰⁸ r, which is below 2⁻⁴⁴ times u r².
+fn in_range(farthest: f64, radius: f64) -> bool {
+    let limit = (1u64 << 40) as f64;
+    farthest <= limit && (limit.recip()..=limit).contains(&radius)
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "rounded up")]
+fn up(x: f64) -> f32 {
+    ((x * SLACK) as f32).next_up()
+}
