@@ -27,10 +27,12 @@
 //!
 //! # The sign of D
 //!
-//! The centre is rounded once (c is a difference of f32), so is each slope. Then with K = (1 + u)(u + γ_3)
+//! The centre is rounded once (c is a difference of f32), and so is each slope, which is off by at most u/2, since it is at
+//! most 1. So the product y c_A is off by at most (u/2)(1 + u)² m + γ_2 |y c_A|, and
+//! with K = (1 + u)(u + γ_2 + (1 + u)² u/2)
 //!
 //! ```text
-//! |ê_Y − e_Y| <= γ_2 |e_Y| + K |y c_A|                        since |c_Y| <= |e_Y| + |y c_A|; likewise Z
+//! |ê_Y − e_Y| <= γ_2 |e_Y| + K m                        since |c_Y| <= |e_Y| + |y c_A| and |y c_A| <= m; likewise Z
 //! ```
 //!
 //! The map (e_Y, e_Z) → e stretches by at most √a. The products in e_X have three roundings each. So, with a <= 3,
@@ -52,10 +54,10 @@
 //! # The root
 //!
 //! Of a true hit, |h − c_A| <= r, since the foot of the perpendicular lies within the sphere. 1/a is off by η = (1 + u)/(1 − β) − 1
-//! of itself, so a product with it by τ − 1, τ = (1 + η)(1 + u). With the same |ê − e|, for Y and Z alone,
+//! of itself, so a product with it by τ − 1, τ = (1 + η)(1 + u). With the same |ê − e|, for Y and Z alone, and √2 √(a − 1) / a <= √(1/2),
 //!
 //! ```text
-//! |(ŷ ê_Y + ẑ ê_Z) / a − (h − c_A)| <= τ [2/3 (1 + γ_3) K m + √(2/3) (γ_2 + γ_3 (1 + γ_2)) r] + (τ − 1) r
+//! |(ŷ ê_Y + ẑ ê_Z) / a − (h − c_A)| <= τ [√(1/2) (1 + γ_3) K m + √(2/3) (γ_2 + γ_3 (1 + γ_2)) r] + (τ − 1) r
 //! ```
 //!
 //! to which u m comes from c_A, and u times the sum. The half chord is taken from D with its threshold added or subtracted, so
@@ -96,7 +98,7 @@ impl Bound {
         let gamma = |k| (1.0 + u).powi(k) - 1.0;
         let (g2, g3, g5) = (gamma(2), gamma(3), gamma(5));
         let (root2, root3, root6) = (2f64.sqrt(), 3f64.sqrt(), 6f64.sqrt());
-        let k = (1.0 + u) * (u + g3);
+        let k = (1.0 + u) * (u + g2 + (1.0 + u) * (1.0 + u) * u / 2.0);
         let p = (root6 + 2.0 * g3) * k * m;
         let relative = root3 * g2 + root2 * g3 * (1.0 + g2);
         let beta = (g2 + 2.0 * g5) / 3.0;
@@ -110,7 +112,7 @@ impl Bound {
 
         let eta = (1.0 + u) / (1.0 - beta) - 1.0;
         let tau = (1.0 + eta) * (1.0 + u);
-        let across = (2.0 / 3.0) * (1.0 + g3) * k * m + (2.0f64 / 3.0).sqrt() * (g2 + g3 * (1.0 + g2)) * r;
+        let across = 0.5f64.sqrt() * (1.0 + g3) * k * m + (2.0f64 / 3.0).sqrt() * (g2 + g3 * (1.0 + g2)) * r;
         let offset = tau * across + (tau - 1.0) * r;
         let middle = u * m + offset + u * ((1.0 + u) * m + r + offset);
         let chord = r + (above + below).sqrt();

@@ -41,7 +41,7 @@ pub enum Side {
     Outside,
     /// Inside: the farther root counts.
     Inside,
-    /// Too close to the surface to tell.
+    /// Too close to the surface to tell, or beyond the range of the bound.
     #[default]
     Unknown,
 }

@@ -62,13 +62,14 @@ pub struct Root {
 }
 
 impl Root {
-    /// The f32 nearest to the true root, if the error allows only one.
+    /// Lower and upper end of the true root, both rounded to f32: where these have the same bits, it is rounded so. Without a
+    /// certain hit they never have.
     #[must_use]
     #[inline(always)]
     #[allow(clippy::cast_possible_truncation, reason = "this is the rounding of rule 3")]
-    pub fn rounded(&self) -> Option<f32> {
-        let (lo, hi) = ((self.t * (1.0 - self.error)) as f32, (self.t * (1.0 + self.error)) as f32);
-        (self.hit && lo.to_bits() == hi.to_bits()).then_some(lo)
+    pub fn ends(&self) -> [f32; 2] {
+        let [lo, hi] = [(self.t * (1.0 - self.error)) as f32, (self.t * (1.0 + self.error)) as f32];
+        if self.hit { [lo, hi] } else { [0.0, -0.0] }
     }
 }
 

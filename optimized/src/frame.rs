@@ -5,7 +5,7 @@ use crate::camera::{BLOCK, Block, CameraLanes, middles, spread};
 use crate::event::{Events, RenderError};
 use crate::machine::{LANES, Machine, three};
 use crate::plan::{Plan, Sharing};
-use crate::seen::{Counts, Seen};
+use crate::seen::{Counts, Seen, Worker};
 use crate::settle::Answers;
 use crate::shade::{Surface, shade};
 use crate::sphere::NONE;
@@ -61,14 +61,14 @@ pub fn render<M: Machine + Send + Sync>(
             Sharing::Mirrored => Seen::new(m, plan, scene, camera, &mut Events::default()).ok(),
         };
         let seen = mirrored.as_ref().unwrap_or(&seen);
-        let mut counts = Counts::default();
+        let mut worker = Worker::default();
         while let Some(mut stripe) = next() {
             m.within(
                 #[inline(always)]
-                || fill(m, seen, scene, camera, &mut stripe, &mut counts),
+                || fill(m, seen, scene, camera, &mut stripe, &mut worker),
             );
         }
-        counts
+        worker.counts
     };
     let counts = std::thread::scope(|scope| {
         let workers: Vec<_> = (0..workers.max(1)).map(|_| scope.spawn(work)).collect();
@@ -85,13 +85,13 @@ fn fill<M: Machine>(
     scene: &Scene,
     camera: &Camera,
     stripe: &mut Stripe<'_>,
-    counts: &mut Counts,
+    worker: &mut Worker,
 ) {
     let lanes = CameraLanes::new(m, camera);
     for x in (0..camera.size().width()).step_by(BLOCK as usize) {
         let (xs, ys) = middles(m, camera, x, stripe.y);
         let block = lanes.block(m, xs, ys);
-        let answers = seen.trace(m, scene.spheres(), &block, counts);
+        let answers = seen.trace(m, scene.spheres(), &block, worker);
         write(m, scene, seen, &block, &answers, x as usize, camera.size().width() as usize, stripe);
     }
 }

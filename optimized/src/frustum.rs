@@ -101,13 +101,20 @@ impl<M: Machine> Frustum<M> {
     /// A vector's components along the major axis, in the rays' sense, and the other two.
     #[inline(always)]
     #[must_use]
-    pub fn along(&self, v: [f32; 3]) -> [f32; 3] {
+    fn along(&self, v: [f32; 3]) -> [f32; 3] {
         let [x, y, z] = three(
             self.order,
             #[inline(always)]
             |i| v[i],
         );
         [if self.forward { x } else { -x }, y, z]
+    }
+
+    /// Where a sphere's centre is from the eye, along (A, Y, Z); `f` is eye − centre.
+    #[inline(always)]
+    #[must_use]
+    pub fn towards(&self, [x, y, z]: [f32; 3]) -> [f32; 3] {
+        self.along([-x, -y, -z])
     }
 
     /// The slices in the order in which the packet meets them.

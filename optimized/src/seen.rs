@@ -56,6 +56,15 @@ pub struct Counts {
     pub rounded_by_integers: u64,
 }
 
+/// What a worker keeps from packet to packet.
+#[derive(Clone, Debug, Default)]
+pub struct Worker {
+    /// What its packets cost.
+    pub counts: Counts,
+    /// Ids of spheres that some ray of the packet may hit, some more than once; kept for its memory.
+    possible: Vec<u32>,
+}
+
 impl std::ops::Add for Counts {
     type Output = Self;
 
@@ -85,19 +94,14 @@ impl Seen {
         camera: &Camera,
         events: &mut Events,
     ) -> Result<Self, RenderError> {
-        let (eye, scene) = (camera.eye(), scene.spheres());
-        let mut spheres: Vec<Prepared> = scene.iter().map(|s| Prepared::new(eye, s)).collect();
-        let bounds = match plan.arithmetic {
-            Arithmetic::Rounded(_) => Vec::new(),
-            Arithmetic::Certified => scene.iter().map(|s| bounds(eye, s)).collect(),
-        };
-        let mut seen = Self { eye, plan, spheres: Vec::new(), bounds, grid: None };
+        let scene = scene.spheres();
+        let mut seen = Self::without_grid(plan, scene, camera.eye());
         if plan.margins == Margins::Derived && !margin::in_range(scene, camera) {
             events.push(Event::OutOfRange);
             if plan.on_event == OnEvent::Refuse {
                 return Err(RenderError::Refused(Event::OutOfRange));
             }
-        } else if !spheres.is_empty() {
+        } else if !scene.is_empty() {
             let ball = |(p, s): (&mut Prepared, &Sphere)| {
                 let reach = margin::reach(plan.margins, plan.arithmetic, p.f, s.radius);
                 p.cull_radius = cull::radius(plan.margins, p.f, reach);
@@ -106,11 +110,21 @@ impl Seen {
                     Margins::Derived => Bounds::outward(s.center, reach),
                 }
             };
-            let balls: Vec<Bounds> = spheres.iter_mut().zip(scene).map(ball).collect();
+            let balls: Vec<Bounds> = seen.spheres.iter_mut().zip(scene).map(ball).collect();
             seen.grid = Some(Grid::build(m, &plan, &balls, events)?);
         }
-        seen.spheres = spheres;
         Ok(seen)
+    }
+
+    /// Prepares spheres alone: every one is met by every ray.
+    #[must_use]
+    pub fn without_grid(plan: Plan, scene: &[Sphere], eye: [f32; 3]) -> Self {
+        let bounds = match plan.arithmetic {
+            Arithmetic::Rounded(_) => Vec::new(),
+            Arithmetic::Certified => scene.iter().map(|s| bounds(eye, s)).collect(),
+        };
+        let spheres = scene.iter().map(|s| Prepared::new(eye, s)).collect();
+        Self { eye, plan, spheres, bounds, grid: None }
     }
 
     /// t and id of each ray of a block, in the scene that this was made of.
@@ -120,49 +134,23 @@ impl Seen {
         m: M,
         scene: &[Sphere],
         block: &Block<M>,
-        counts: &mut Counts,
+        worker: &mut Worker,
     ) -> Answers {
-        let Some(grid) = &self.grid else { return self.trace_all(m, scene, block, counts) };
         if let Some(frustum) = Frustum::of_block(m, block) {
-            return self.trace_packet(m, grid, scene, block, &frustum, [0, LANES], counts);
+            return self.trace_packet(m, scene, block, &frustum, [0, LANES], worker);
         }
         // Sixteen times the same ray is a packet with a frustum of its own.
-        counts.split_blocks += 1;
+        worker.counts.split_blocks += 1;
         let dir = arrays(m, block);
         let mut answers = Answers::NONE;
         for lane in 0..LANES {
             let ray = Block::new(m, [m.splat(dir[0][lane]), m.splat(dir[1][lane]), m.splat(dir[2][lane])]);
             // A direction of zero has no major axis, and hits nothing.
             let Some(frustum) = Frustum::of_block(m, &ray) else { continue };
-            let alone = self.trace_packet(m, grid, scene, &ray, &frustum, [lane, lane + 1], counts);
+            let alone = self.trace_packet(m, scene, &ray, &frustum, [lane, lane + 1], worker);
             (answers.t[lane], answers.id[lane]) = (alone.t[lane], alone.id[lane]);
         }
         answers
-    }
-
-    /// Every sphere is a candidate of every ray.
-    fn trace_all<M: Machine>(
-        &self,
-        m: M,
-        scene: &[Sphere],
-        block: &Block<M>,
-        counts: &mut Counts,
-    ) -> Answers {
-        counts.candidates += self.spheres.len() as u64;
-        match self.plan.arithmetic {
-            Arithmetic::Rounded(form) => {
-                let mut nearest = Nearest::none(m);
-                for (sphere, id) in self.spheres.iter().zip(0..) {
-                    nearest = nearest.meet(m, form, block, sphere, id);
-                }
-                Answers { t: m.to_array(nearest.t), id: m.to_array_i(nearest.id) }
-            }
-            Arithmetic::Certified => {
-                let all: Vec<u32> = (0..).zip(&self.spheres).map(|(id, _)| id).collect();
-                let open = certain::Nearest { rival: m.splat(0.0), ..certain::Nearest::none(m) };
-                self.question(m, scene, block).settle(m, &open, &all, [0, LANES], counts)
-            }
-        }
     }
 
     #[inline(always)]
@@ -172,21 +160,19 @@ impl Seen {
 
     /// The lanes `wanted` of a packet; the others may be misses.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments, reason = "all of it differs from packet to packet")]
     fn trace_packet<M: Machine>(
         &self,
         m: M,
-        grid: &Grid,
         scene: &[Sphere],
         block: &Block<M>,
         frustum: &Frustum<M>,
         wanted: [usize; 2],
-        counts: &mut Counts,
+        worker: &mut Worker,
     ) -> Answers {
         match self.plan.arithmetic {
             Arithmetic::Rounded(form) => {
                 let rounded = Rounded { form, block, frustum, nearest: Nearest::none(m) };
-                let nearest = self.walk(m, grid, frustum, rounded, counts).nearest;
+                let nearest = self.meet_all(m, frustum, rounded, &mut worker.counts).nearest;
                 Answers { t: m.to_array(nearest.t), id: m.to_array_i(nearest.id) }
             }
             Arithmetic::Certified => {
@@ -195,23 +181,32 @@ impl Seen {
                     rays,
                     bounds: &self.bounds,
                     nearest: certain::Nearest::none(m),
-                    possible: Vec::new(),
+                    possible: &mut worker.possible,
                 };
-                let found = self.walk(m, grid, frustum, certified, counts);
-                self.question(m, scene, block).settle(m, &found.nearest, &found.possible, wanted, counts)
+                certified.possible.clear();
+                let nearest = self.meet_all(m, frustum, certified, &mut worker.counts).nearest;
+                let question = self.question(m, scene, block);
+                question.settle(m, &nearest, &worker.possible, wanted, &mut worker.counts)
             }
         }
     }
 
+    /// Meets every sphere that a ray may hit: those that the walk comes to and culling keeps, or without a grid all.
     #[inline(always)]
-    fn walk<M: Machine, H: Hits<M>>(
+    fn meet_all<M: Machine, H: Hits<M>>(
         &self,
         m: M,
-        grid: &Grid,
         frustum: &Frustum<M>,
-        hits: H,
+        mut hits: H,
         counts: &mut Counts,
     ) -> H {
+        let Some(grid) = &self.grid else {
+            counts.candidates += self.spheres.len() as u64;
+            for (id, sphere) in (0..).zip(&self.spheres) {
+                hits.meet(m, sphere, frustum.towards(sphere.f), id);
+            }
+            return hits;
+        };
         let slices = frustum.slices(m, self.eye, grid, self.plan.margins);
         let planes = match self.plan.culling {
             Culling::None => None,
@@ -246,14 +241,17 @@ fn bounds(eye: [f32; 3], sphere: &Sphere) -> (Bound, Side) {
     let r = f64::from(sphere.radius);
     let (ff, rr) = (f[0] * f[0] + f[1] * f[1] + f[2] * f[2], r * r);
     let slack = (ff + rr) / (1u64 << 50) as f64;
-    let side = if ff - rr > slack {
+    let bound = Bound::new(bound::NEAREST, f.iter().fold(0.0, |m, x| m.max(x.abs())), r);
+    let side = if bound == Bound::NONE {
+        Side::Unknown
+    } else if ff - rr > slack {
         Side::Outside
     } else if ff - rr < -slack {
         Side::Inside
     } else {
         Side::Unknown
     };
-    (Bound::new(bound::NEAREST, f.iter().fold(0.0, |m, x| m.max(x.abs())), r), side)
+    (bound, side)
 }
 
 /// Rim: directions by axis and lane.
@@ -300,8 +298,7 @@ struct Certified<'a, M: Machine> {
     rays: Rays<M>,
     bounds: &'a [(Bound, Side)],
     nearest: certain::Nearest<M>,
-    /// Ids of spheres that some ray may hit, some more than once.
-    possible: Vec<u32>,
+    possible: &'a mut Vec<u32>,
 }
 
 impl<M: Machine> Hits<M> for Certified<'_, M> {
@@ -369,8 +366,7 @@ impl<M: Machine, H: Hits<M>> Meeting<'_, M, H> {
         let m = self.m;
         let sphere = &self.spheres[id as usize];
         self.counts.candidates += 1;
-        let [x, y, z] = sphere.f;
-        let center = self.frustum.along([-x, -y, -z]);
+        let center = self.frustum.towards(sphere.f);
         if let Some(planes) = &self.planes {
             let center = [m.splat(center[0]), m.splat(center[1]), m.splat(center[2])];
             if planes.cull(m, center, m.splat(sphere.cull_radius)) {

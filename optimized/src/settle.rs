@@ -9,7 +9,7 @@
 //! 3. Where f64 does not know which sphere or which f32, integers do ([`crate::exact`]).
 
 use crate::certain::Nearest;
-use crate::double::{self, Answer, Root};
+use crate::double::{self, Answer};
 use crate::exact;
 use crate::machine::{LANES, Machine};
 use crate::seen::Counts;
@@ -56,7 +56,7 @@ impl Question<'_> {
         let (one, zero) = (m.splat_i(1), m.splat_i(0));
         let marked = m.to_array_i(m.select_i(nearest.marked(m), one, zero));
         counts.lanes += (to - from) as u64;
-        let roots = self.roots(&answers.id);
+        let rounded = self.round(&answers.id);
         for lane in 0..LANES {
             if lane < from || lane >= to {
                 answers.id[lane] = NONE;
@@ -64,20 +64,19 @@ impl Question<'_> {
                 counts.asked_f64 += 1;
                 (answers.t[lane], answers.id[lane]) = self.by_f64(lane, candidates, counts);
             } else if answers.id[lane] != NONE {
+                let [t, above] = [rounded[0][lane], rounded[1][lane]];
                 let id = answers.id[lane].unsigned_abs();
-                answers.t[lane] = match roots[lane].rounded() {
-                    Some(t) => t,
-                    None => self.round_exactly(lane, id, counts),
-                };
+                let certain = t.to_bits() == above.to_bits();
+                answers.t[lane] = if certain { t } else { self.round_exactly(lane, id, counts) };
             }
         }
         answers
     }
 
-    /// The roots of the spheres of those ids, one a lane; anything where there is none. Gathered first, so that what follows is
-    /// one straight loop.
+    /// Lower and upper end of the t of the spheres of those ids, one a lane, rounded to f32; anything where there is none.
+    /// Gathered first, so that what follows are straight loops, which become vectors.
     #[inline(always)]
-    fn roots(&self, ids: &[i32; LANES]) -> [Root; LANES] {
+    fn round(&self, ids: &[i32; LANES]) -> [[f32; LANES]; 2] {
         let (mut center, mut radius) = ([[0.0; LANES]; 3], [1.0; LANES]);
         for lane in 0..LANES {
             if let Some(sphere) = self.spheres.get(ids[lane].unsigned_abs() as usize) {
@@ -85,12 +84,14 @@ impl Question<'_> {
                 (center[2][lane], radius[lane]) = (sphere.center[2], sphere.radius);
             }
         }
-        let mut roots = [Root { miss: true, hit: false, t: 0.0, error: 0.0 }; LANES];
+        let mut ends = [[0.0; LANES]; 2];
         for lane in 0..LANES {
             let center = [center[0][lane], center[1][lane], center[2][lane]];
-            roots[lane] = double::root(self.eye, self.direction(lane), center, radius[lane]);
+            let root = double::root(self.eye, self.direction(lane), center, radius[lane]);
+            let [lo, hi] = root.ends();
+            (ends[0][lane], ends[1][lane]) = (lo, hi);
         }
-        roots
+        ends
     }
 
     #[inline(always)]
@@ -113,7 +114,9 @@ impl Question<'_> {
         if hi.is_finite() && rest.all(|&(id, _)| id == first) {
             let sphere = &self.spheres[first as usize];
             let root = double::root(eye, dir, sphere.center, sphere.radius);
-            let t = root.rounded().unwrap_or_else(|| self.round_exactly(lane, first, counts));
+            let [t, above] = root.ends();
+            let certain = t.to_bits() == above.to_bits();
+            let t = if certain { t } else { self.round_exactly(lane, first, counts) };
             return (t, first.cast_signed());
         }
         counts.asked_integers += 1;

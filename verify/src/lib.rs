@@ -9,6 +9,7 @@ pub mod directed;
 pub mod matrix;
 pub mod scenes;
 pub mod seed;
+pub mod small;
 
 pub mod subject;
 

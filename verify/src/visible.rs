@@ -200,7 +200,7 @@ impl Packet<'_> {
 
     /// Whether culling drops a ball, given by eye − centre.
     fn culls(&self, f: [f32; 3], radius: f32) -> bool {
-        let center = self.frustum.along(f.map(|x| -x)).map(|x| [x; LANES]);
+        let center = self.frustum.towards(f).map(|x| [x; LANES]);
         Planes::new(Scalar, self.frustum, self.seen.plan.margins).cull(Scalar, center, [radius; LANES])
     }
 
