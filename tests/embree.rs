@@ -88,8 +88,8 @@ fn the_matrix_is_judged_at_every_isa_and_width() {
         if hearings[0].not_stated[0] > 0 {
             unstated.insert(case.name.split(',').next().unwrap_or_default().to_owned());
         }
-        // There every hit is a tie, and so in the band.
-        if !case.name.starts_with("coincident") {
+        // A hit on one of two that are the same is a tie, and so in the band.
+        if !has_twins(&case.scene) {
             open += hearings[0].in_band;
         }
         sums = match sums.is_empty() {
@@ -106,6 +106,13 @@ fn the_matrix_is_judged_at_every_isa_and_width() {
     assert!(open >= 10 && open < sum.rays / 1000, "the band holds nothing, or too much: {open} rays");
     assert!(sum.not_stated[0] < sum.rays / 5, "nothing is stated for too many rays");
     assert_eq!(unstated, ["huge", "tiny"].map(str::to_owned).into(), "these alone leave f32's range");
+}
+
+/// Whether two spheres of a scene are the same.
+fn has_twins(scene: &Scene) -> bool {
+    let bits = |s: &Sphere| (s.center.map(f32::to_bits), s.radius.to_bits());
+    let different: BTreeSet<_> = scene.spheres().iter().map(bits).collect();
+    different.len() < scene.spheres().len()
 }
 
 /// What was measured before this project began: hardly a disagreement up to 300 radii, about 0.05 % of rays at 30,000.

@@ -1,12 +1,15 @@
 //! Do tracers of other people agree? The crates `bvh` and `parry3d` on every scene and view, judged as any subject is.
 
+use contract::{MISS, Size};
 use rayon::prelude::*;
 use reference::{Arithmetic, Tracer};
 use std::collections::BTreeSet;
 use std::io::Write;
 use verify::judge::judge;
 use verify::matrix::Matrix;
+use verify::peers::tachyon::{View, find, render};
 use verify::peers::{BvhCrate, Parry};
+use verify::scenes::catalogue::Source;
 use verify::subject::Subject;
 use verify::verdict::Verdict;
 
@@ -51,4 +54,54 @@ fn peers_see_the_truth_within_their_rounding() {
         assert!(sum[1] < sum[0] / one_in, "{name}: too many wrong ids to be rounding");
     }
     assert!(judged.iter().any(|all| all[1].1 > 0), "f32 never saw a wrong sphere: nothing was at stake");
+}
+
+/// Where all pixels around one show the same sphere, Tachyon shows it too; elsewhere it may not only where its rays are not ours
+/// to the last bit, which is rare.
+#[test]
+fn tachyon_shows_the_same_spheres() {
+    let Some(program) = find() else {
+        _ = writeln!(
+            std::io::stderr(),
+            "not judged: Tachyon: not installed (apt-get install tachyon-bin-nox)"
+        );
+        return;
+    };
+    for (word, eye, height) in [
+        ("1hvr", [-9.0, 17.0, 130.0], 0.6),
+        ("1hvr", [70.0, 60.0, -40.0], 0.7),
+        ("sphereflake:3", [2.1, 1.3, 1.7], 0.8),
+        ("uniform:500:1", [0.4, 0.3, -2.0], 1.0),
+    ] {
+        let loaded = Source::parse(word).and_then(|source| source.load()).expect("bundled or generated");
+        let scene = &loaded.animation.frames()[0];
+        let size = Size::new(301, 200).expect("small");
+        let target = if word == "1hvr" { [-9.0, 17.0, 28.0] } else { [0.0; 3] };
+        let view = View { eye, target, height, size };
+        let camera = view.camera().expect("not degenerate");
+        let truth = Tracer::new(Arithmetic::Exact).render(scene, &camera).expect("small").image.ids;
+        let seen = render(&program, scene, &view).expect("Tachyon renders");
+        let width = size.width() as usize;
+        let (mut plain, mut edge, mut differ) = (0, 0, 0);
+        for i in 0..truth.len() {
+            let (x, y) = (i % width, i / width);
+            let inner = x > 0 && y > 0 && x + 1 < width && i + width < truth.len();
+            let around = [0, 1, 2].map(|dy| (dy * width).wrapping_sub(width + 1));
+            let same = |start: usize| (0..3).all(|dx| truth[i.wrapping_add(start) + dx] == truth[i]);
+            if inner && around.into_iter().all(same) {
+                plain += usize::from(truth[i] != MISS);
+                assert_eq!(
+                    seen[i], truth[i],
+                    "{word} from {eye:?}, pixel ({x}, {y}), far from every silhouette"
+                );
+            } else {
+                edge += 1;
+                differ += usize::from(seen[i] != truth[i]);
+            }
+        }
+        eprintln!("{word}: {plain} plain hits agree, {differ} of {edge} pixels at silhouettes differ");
+        assert!(plain > 1000, "{word}: hardly a hit");
+        assert!(differ * 200 <= edge, "{word}: {differ} of {edge} pixels at silhouettes differ");
+    }
+    _ = writeln!(std::io::stderr(), "judged by Tachyon, at the level of images");
 }

@@ -3,10 +3,12 @@
 //!
 //! In: a scene and a camera. Out: a picture whose ids and t are the peer's; a peer has no colours, so the reference's rule 4
 //! paints what it found. Both are given boxes a little larger than the spheres, so that what they promise is the rounding
-//! of the root alone, and a sphere that their search loses is wrong.
+//! of the root alone, and a sphere that their search loses is wrong. A third, [`tachyon`], is a program that gives pictures
+//! only, and is asked if it is installed.
 
 mod bvh;
 mod parry;
+pub mod tachyon;
 
 pub use self::bvh::BvhCrate;
 pub use parry::Parry;
