@@ -8,6 +8,7 @@ use crate::judge::band::{Band, embree_band};
 use crate::judge::outside::{Testimony, Witness};
 use crate::subject::SubjectError;
 use contract::{Camera, MISS, Scene, Sphere};
+use rayon::prelude::*;
 use reference::Ray;
 
 /// Embree at several instruction sets.
@@ -51,16 +52,17 @@ impl Witness for Embree {
     }
 
     fn testify(&self, scene: &Scene, camera: &Camera) -> Result<Vec<Testimony>, SubjectError> {
-        let mut testimonies = Vec::new();
-        for device in &self.devices {
+        let at = |device: &Device| -> Result<Vec<Testimony>, EmbreeError> {
             let tracer = Tracer::with_fault(device, scene, Build::Robust, self.fault)?;
-            for width in Width::ALL {
+            let picture = |width: Width| {
                 let pixels = camera.size().pixels();
                 let (mut ids, mut t) = (vec![MISS; pixels], vec![f32::INFINITY; pixels]);
                 tracer.render(camera, width, &mut ids, &mut t)?;
-                testimonies.push(Testimony { mode: format!("{}, {width} wide", device.isa()), ids, t });
-            }
-        }
-        Ok(testimonies)
+                Ok(Testimony { mode: format!("{}, {width} wide", device.isa()), ids, t })
+            };
+            Width::ALL.into_iter().map(picture).collect()
+        };
+        let testimonies: Result<Vec<_>, _> = self.devices.par_iter().map(at).collect();
+        Ok(testimonies?.concat())
     }
 }

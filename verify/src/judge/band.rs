@@ -69,14 +69,17 @@ const NAIVE: Perpendicular = Perpendicular { h: 10.0, root: 4.0, second: 170.0 }
 const EMBREE: Perpendicular = Perpendicular { h: 13.0, root: 6.0, second: 256.0 };
 
 /// What comes before and after the formula itself: what a search may lose of D before the formula is asked, and the
-/// least t that counts.
+/// least t that counts, below which none is given either if that is not 0.
 #[derive(Clone, Copy)]
 struct Search {
     lost: f64,
     least: f64,
+    floor: f64,
 }
 
-const EVERY_SPHERE: Search = Search { lost: 0.0, least: f64::from_bits((1023 - 149) << 52) };
+const EVERY_SPHERE: Search = Search { lost: 0.0, least: LEAST, floor: 0.0 };
+/// The least f32.
+const LEAST: f64 = f32::from_bits(1) as f64;
 /// The least normal f32, from which on rays are asked.
 const LEAST_NORMAL: f64 = f64::from_bits((1023 - 126) << 52);
 /// Embree drops a sphere of a number beyond 1.844·10¹⁸ and says nothing.
@@ -141,7 +144,10 @@ impl Geometry {
             return None;
         }
         let lost = 1.02 * U * ((corner + r) + (far + r)) + 2f64.powi(-39) * far;
-        Some(self.perpendicular_found(&EMBREE, Search { lost: 2.0 * r * lost, least: LEAST_NORMAL }))
+        Some(self.perpendicular_found(
+            &EMBREE,
+            Search { lost: 2.0 * r * lost, least: LEAST_NORMAL, floor: LEAST_NORMAL },
+        ))
     }
 
     fn perpendicular_found(&self, form: &Perpendicular, search: Search) -> Band {
@@ -162,13 +168,13 @@ impl Geometry {
 /// The shared ending of rule 5: near if it is above 0, else far; a hit if D >= 0 and t > 0. `roots` gives the roots for
 /// a D that is off by so much.
 fn banded(discriminant: f64, error: f64, search: Search, roots: impl Fn(f64) -> [Span; 2]) -> Band {
-    let Search { lost, least } = search;
+    let Search { lost, least, floor } = search;
     if discriminant + error < 0.0 {
         return Band { may_hit: None, must_hit: None };
     }
     // Rounding of t to f32 in the end (once more than needed for the f32 forms), and the least t.
     let ends = |error| roots(error).map(|t: Span| t.widen(U).add(least));
-    let (may_hit, takes_far) = reachable(ends(error));
+    let (may_hit, takes_far) = reachable(ends(error), floor);
     if discriminant - error - lost < 0.0 {
         return Band { may_hit, must_hit: None };
     }
@@ -176,19 +182,19 @@ fn banded(discriminant: f64, error: f64, search: Search, roots: impl Fn(f64) -> 
     let certain = !(takes_far && far.lo <= 0.0);
     // Boxes are crossed at t (1 + 3u) at most where something is lost.
     let delay = if lost > 0.0 { 1.0 + 4.0 * U } else { 1.0 };
-    let (latest, _) = reachable([near, far]);
+    let (latest, _) = reachable([near, far], floor);
     Band { may_hit, must_hit: latest.filter(|_| certain).map(|[_, hi]| hi * delay) }
 }
 
-/// From where to where a t above 0 can lie, and whether it can be that of the far root.
-fn reachable([near, far]: [Span; 2]) -> (Option<[f64; 2]>, bool) {
+/// From where to where a t above 0, and not below `floor`, can lie, and whether it can be that of the far root.
+fn reachable([near, far]: [Span; 2], floor: f64) -> (Option<[f64; 2]>, bool) {
     let takes_far = near.lo <= 0.0;
     let mut t: Option<[f64; 2]> = None;
     for root in [Some(near), takes_far.then_some(far)].into_iter().flatten().filter(|root| root.hi > 0.0) {
         let [lo, hi] = t.unwrap_or([root.lo, root.hi]);
         // What rounds to more than the largest f32 is an infinite t.
         let top = if root.hi > f64::from(f32::MAX) { f64::INFINITY } else { root.hi };
-        t = Some([lo.min(root.lo).max(0.0), hi.max(top)]);
+        t = Some([lo.min(root.lo).max(floor), hi.max(top)]);
     }
     (t, takes_far)
 }
