@@ -113,9 +113,9 @@ impl Geometry {
             && self.rr > small
             && self.a > small
             && self.a * self.rr > small
-            && self.rr / self.a > small
-            && self.a.recip() < large
-            && square / self.a < large
+            && self.rr > small * self.a
+            && 1.0 < large * self.a
+            && square < large * self.a
     }
 
     fn textbook(&self, u: f64) -> Band {
@@ -138,11 +138,18 @@ impl Geometry {
     /// Sphere points of Embree. Its direction has no component below 10⁻¹⁸: with a above 2⁻⁴⁰ the ray strays by less
     /// than 2⁻³⁹ F, which is put on top of what its boxes lose.
     fn embree(&self, sphere: &Sphere) -> Option<Band> {
-        let (far, r) = (self.ff.sqrt(), f64::from(sphere.radius));
+        let r = f64::from(sphere.radius);
         let corner = sphere.center.iter().map(|x| f64::from(x.abs())).fold(0.0, f64::max);
-        if !self.in_range(FLUSHED) || self.a < 2f64.powi(-40) || far + corner + r > LARGE {
+        if !self.in_range(FLUSHED) || self.a < 2f64.powi(-40) || self.ff > LARGE * LARGE || corner + r > LARGE
+        {
             return None;
         }
+        // Far below any error of D: nearly all spheres of a ray go no further.
+        let discriminant = self.b * self.b - self.a * (self.ff - self.rr);
+        if discriminant < -2f64.powi(-20) * self.a * (self.ff + self.rr) {
+            return Some(Band { may_hit: None, must_hit: None });
+        }
+        let far = self.ff.sqrt();
         let lost = 1.02 * U * ((corner + r) + (far + r)) + 2f64.powi(-39) * far;
         Some(self.perpendicular_found(
             &EMBREE,
