@@ -192,6 +192,23 @@ fn assert_told_once(words: &[&str], err: &str) {
     assert!(!err.contains(".cgt-"), "{words:?}: a temporary file is named in\n{err}");
 }
 
+/// A judge that is asked for and cannot be had leaves no verdict, and everything else is still told.
+#[cfg(not(feature = "embree"))]
+#[test]
+fn a_needed_judge_that_is_missing_is_no_pass() {
+    let desk = Desk::new();
+    let words = ["1hvr", "--size", SMALL, "--subject", "naive-f64"];
+    let plain = desk.run(&words);
+    assert_eq!(plain.code, 0);
+    assert!(plain.out.contains("Embree: not judged. It was not asked"), "{}", plain.out);
+    let asked = desk.run(&[&words[..], &["--judges", "embree"]].concat());
+    assert_eq!(asked.code, 3, "{}{}", asked.out, asked.err);
+    assert!(asked.out.contains("Embree: not judged. This program was built without it"), "{}", asked.out);
+    assert!(asked.out.contains("naive-f64"), "{}", asked.out);
+    let wrong = desk.run(&["1hvr", "--size", "320x180", "--plan", "paper", "--judges", "embree"]);
+    assert_eq!(wrong.code, 1, "a mismatch is worse than a missing judge");
+}
+
 // ---- what succeeds ----
 
 #[test]
@@ -201,7 +218,7 @@ fn without_a_subcommand_it_verifies_the_bundled_molecule() {
     assert_eq!(said.code, 0, "{}{}", said.out, said.err);
     assert_eq!(said.err, "", "nothing to warn of, and no bar where there is no terminal");
     let report = report(&desk.path("report"));
-    assert_eq!(report["schema_version"], 1);
+    assert_eq!(report["schema_version"], 2);
     assert_eq!(report["verdict"], "WithinBound");
     assert_eq!(report["environment"]["command_line"], format!("cgt --size {SMALL} --out report"));
     assert_eq!([&report["scenes"][0]["width"], &report["scenes"][0]["height"]], [64, 36]);
@@ -350,7 +367,17 @@ fn help_is_enough_for_a_stranger() {
     let desk = Desk::new();
     let help = desk.run(&["--help"]);
     assert_eq!((help.code, help.err.as_str()), (0, ""));
-    for want in ["Exit codes", "report.html", "cgt scenes", "1hvr", "render", "--size", "--subject", "safe"] {
+    for want in [
+        "Exit codes",
+        "report.html",
+        "cgt scenes",
+        "1hvr",
+        "render",
+        "--size",
+        "--subject",
+        "--judges",
+        "safe",
+    ] {
         assert!(help.out.contains(want), "{want:?} is not in the help");
     }
     for code in 0..=3 {

@@ -191,7 +191,7 @@ fn bands_hold_what_the_forms_answer() {
             let Some(band) = band(rounding, &case.ray, &sphere) else { continue };
             let answer = Tracer::new(rounding.naive()).trace(&case.ray, &scene);
             let holds = match (answer, band.may_hit) {
-                (None, _) => band.may_miss,
+                (None, _) => band.must_hit.is_none(),
                 (Some(hit), Some([lo, hi])) => (lo..=hi).contains(&f64::from(hit.t)),
                 (Some(_), None) => false,
             };
@@ -201,7 +201,7 @@ fn bands_hold_what_the_forms_answer() {
             );
             let truth = Tracer::new(Arithmetic::Exact).trace(&case.ray, &scene);
             counts[0] += 1;
-            counts[1] += u64::from(band.may_miss != band.may_hit.is_some());
+            counts[1] += u64::from(band.must_hit.is_some() == band.may_hit.is_some());
             counts[2] += u64::from(truth.is_some() != answer.is_some());
         }
         counts
@@ -223,8 +223,11 @@ fn bands_are_narrow_close_by() {
     for (rounding, units) in [(Rounding::TextbookF32, 2000.0), (Rounding::PerpendicularF32, 500.0)] {
         let head_on = band(rounding, &ray, &ball(0.0)).expect("in range");
         let [lo, hi] = head_on.may_hit.expect("head on");
-        assert!(!head_on.may_miss && hi - lo < units / f64::from(1u32 << 24), "{rounding:?}: {head_on:?}");
+        assert!(
+            head_on.must_hit.is_some() && hi - lo < units / f64::from(1u32 << 24),
+            "{rounding:?}: {head_on:?}"
+        );
         let beside = band(rounding, &ray, &ball(1.0001)).expect("in range");
-        assert_eq!((beside.may_miss, beside.may_hit), (true, None), "{rounding:?}");
+        assert_eq!((beside.must_hit, beside.may_hit), (None, None), "{rounding:?}");
     }
 }

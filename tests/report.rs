@@ -3,6 +3,7 @@
 use contract::{Camera, Image, MISS, Size};
 use std::collections::HashSet;
 use std::error::Error;
+use verify::judge::outside::{Adjudicated, Hearing};
 use verify::report::{
     Absent, Claim, Counter, Environment, Evidence, Judge, Report, ReportError, SCHEMA_VERSION, ScenePictures,
     SceneReport, SubjectReport, TEXT_WIDTH, html, json, overall, sanitized, text, word, write,
@@ -50,6 +51,28 @@ fn subject(name: &str, verdict: Verdict) -> SubjectReport {
     }
 }
 
+/// One that agrees, and one that does not.
+fn hearings() -> Vec<Hearing> {
+    let inside = Adjudicated { reference: 4321, ..Adjudicated::default() };
+    let mut t_ulp = [0; 12];
+    t_ulp[3] = 7654;
+    let sound = Hearing {
+        witness: "Tracer <of others> 1.2".to_owned(),
+        mode: "plain, 4 wide".to_owned(),
+        rays: 3072,
+        inside,
+        t_ulp,
+        ..Hearing::default()
+    };
+    let wrong = Hearing {
+        mode: "odd, 1 wide".to_owned(),
+        outside: 2,
+        first: Some("<here>".to_owned()),
+        ..sound.clone()
+    };
+    vec![sound, wrong]
+}
+
 fn scene(name: &str, subjects: Vec<SubjectReport>) -> Result<SceneReport, Box<dyn Error>> {
     let camera = Camera::new(
         [0.0, 0.1, -5.0],
@@ -76,6 +99,7 @@ fn scene(name: &str, subjects: Vec<SubjectReport>) -> Result<SceneReport, Box<dy
         hits: 800,
         picture: None,
         subjects,
+        outside: hearings(),
     })
 }
 
@@ -93,7 +117,7 @@ fn report() -> Result<Report, Box<dyn Error>> {
     Ok(Report {
         schema_version: SCHEMA_VERSION,
         title: "A <title>".to_owned(),
-        verdict: overall(&scenes),
+        verdict: overall(&scenes, &[]),
         environment: Environment {
             program: "cgt 0.0".to_owned(),
             target: "made-up".to_owned(),
@@ -107,7 +131,7 @@ fn report() -> Result<Report, Box<dyn Error>> {
         },
         scenes,
         claims: claims.collect(),
-        absent: vec![Absent { judge: "Embree".to_owned(), why: "it is not here ".repeat(20) }],
+        absent: vec![Absent { judge: "Embree".to_owned(), why: "it is not here ".repeat(20), needed: false }],
     })
 }
 
@@ -205,7 +229,18 @@ fn page_says_all_it_was_told() -> Outcome {
     }
     let bits = format!("0x{:08x}", 0.1_f32.to_bits());
     let seed = u64::MAX.to_string();
-    for told in ["Embree", "1\u{202f}234\u{202f}567", "58, 1", "123", &bits, &seed, "2026-01-02T03:04:05Z"] {
+    for told in [
+        "4\u{202f}321",
+        "7\u{202f}654",
+        "Tracer &#60;of others&#62; 1.2, plain, 4 wide",
+        "Embree",
+        "1\u{202f}234\u{202f}567",
+        "58, 1",
+        "123",
+        &bits,
+        &seed,
+        "2026-01-02T03:04:05Z",
+    ] {
         assert!(page.contains(told), "{told}");
     }
     Ok(())
@@ -225,7 +260,7 @@ fn every_picture_on_the_page_has_words() -> Outcome {
 #[test]
 fn an_empty_report_is_not_judged() -> Outcome {
     let empty = Report { scenes: Vec::new(), claims: Vec::new(), absent: Vec::new(), ..report()? };
-    assert_eq!(overall(&empty.scenes), Verdict::NotJudged);
+    assert_eq!(overall(&empty.scenes, &[]), Verdict::NotJudged);
     assert!(html(&empty, &[])?.contains("</html>"));
     assert!(text(&empty, false).contains("subject"));
     Ok(())
@@ -236,20 +271,34 @@ fn the_worst_verdict_is_the_verdict() -> Outcome {
     use Verdict::{Equal, NotJudged, Undecidable, WithinBound, Wrong};
     let run = |verdicts: &[Verdict]| -> Result<Verdict, Box<dyn Error>> {
         let subjects = verdicts.iter().map(|verdict| subject("s", *verdict)).collect();
-        Ok(overall(&[scene("a", subjects)?, scene("b", vec![subject("s", Equal)])?]))
+        let quiet = |scene: SceneReport| SceneReport { outside: Vec::new(), ..scene };
+        Ok(overall(&[quiet(scene("a", subjects)?), quiet(scene("b", vec![subject("s", Equal)])?)], &[]))
     };
     assert_eq!(run(&[])?, Equal);
     assert_eq!(run(&[Equal, WithinBound])?, WithinBound);
     assert_eq!(run(&[Undecidable, WithinBound])?, Undecidable);
     assert_eq!(run(&[Undecidable, NotJudged])?, NotJudged);
     assert_eq!(run(&[Wrong, NotJudged])?, Wrong);
+    let with = |outside: &[Hearing], needed: bool| -> Result<Verdict, Box<dyn Error>> {
+        let scene = SceneReport { outside: outside.to_vec(), ..scene("a", vec![subject("s", Equal)])? };
+        let absent = Absent { judge: "j".to_owned(), why: String::new(), needed };
+        Ok(overall(&[scene], &[absent]))
+    };
+    assert_eq!(with(&[], false)?, Equal);
+    assert_eq!(with(&[], true)?, NotJudged, "a judge that was asked for is absent");
+    assert_eq!(with(&hearings()[..1], false)?, WithinBound);
+    assert_eq!(with(&hearings(), false)?, Wrong, "a witness does not agree");
+    let unstated = Hearing { not_stated: [1, 0], ..hearings()[0].clone() };
+    assert_eq!(with(std::slice::from_ref(&unstated), false)?, Undecidable);
+    let silent = Hearing { not_stated: [unstated.rays, 0], ..unstated };
+    assert_eq!(with(&[silent], false)?, NotJudged, "a witness that states nothing has not judged");
     Ok(())
 }
 
 #[test]
 fn json_begins_with_its_schema_and_holds_the_data() -> Outcome {
     let text = json(&report()?)?;
-    assert!(text.starts_with("{\n  \"schema_version\": 1,"));
+    assert!(text.starts_with("{\n  \"schema_version\": 2,"));
     let data: serde_json::Value = serde_json::from_str(&text)?;
     assert_eq!(data["verdict"], "Wrong");
     assert_eq!(data["scenes"][1]["name"], HOSTILE);

@@ -37,6 +37,7 @@ mod single;
 
 pub use ray::Ray;
 pub use render::{Arithmetic, RenderError, Rendering, Tracer};
+pub use shade::shade;
 
 /// A ray's nearest sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]

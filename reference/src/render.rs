@@ -129,7 +129,7 @@ impl Tracer {
         for (x, i) in (0..camera.size().width()).zip(0..) {
             let ray = Ray::of_pixel(camera, x, y);
             if let Some(hit) = self.trace_counting(&ray, scene, &mut undecided) {
-                (row.ids[i], row.t[i], row.rgba[i]) = (hit.id, hit.t, shade::shade(scene, &ray, hit));
+                (row.ids[i], row.t[i], row.rgba[i]) = (hit.id, hit.t, shade(scene, &ray, hit));
             }
         }
         undecided

@@ -3,8 +3,12 @@
 use crate::{Hit, Ray};
 use contract::{AMBIENT, DIFFUSE, Scene};
 
-/// Red, green, blue, 255.
-pub(crate) fn shade(scene: &Scene, ray: &Ray, hit: Hit) -> [u8; 4] {
+/// Red, green, blue, 255: for a hit of any tracer, with t as it gives it.
+///
+/// # Panics
+/// If the scene has no sphere of that id.
+#[must_use]
+pub fn shade(scene: &Scene, ray: &Ray, hit: Hit) -> [u8; 4] {
     let sphere = &scene.spheres()[hit.id as usize];
     let light = scene.light();
     let point = [0, 1, 2].map(|i| ray.eye[i] + hit.t * ray.dir[i]);

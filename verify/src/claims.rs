@@ -68,7 +68,12 @@ const ROWS: [Row; 14] = [
         "cargo bench --bench frames",
     ),
     ("The optimized picture equals the exact one, bit for bit", Evidence::NotShown, "0", "a later version"),
-    ("The reference agrees with Embree outside the silhouettes", Evidence::NotShown, "0", "a later version"),
+    (
+        "The reference agrees with Embree outside the silhouettes",
+        Evidence::Sampled,
+        "over 350 pictures at five instruction sets and four widths, 410,000 rays at each of 4 distances, 30,000 directed",
+        "tests/run",
+    ),
     ("Faster than Embree", Evidence::NotShown, "0", "a later version"),
     (
         "The paper's scenes fit and run in real time on its machine",
@@ -95,7 +100,11 @@ pub fn claims() -> Vec<Claim> {
 pub fn markdown() -> String {
     let mut table = String::from("| claim | evidence | figure | how to see it |\n|---|---|---|---|\n");
     for (statement, evidence, figure, how) in ROWS {
-        let how = if how.starts_with("cargo") { format!("`{how}`") } else { how.into() };
+        let how = if how.starts_with("cargo") || how.starts_with("tests/") {
+            format!("`{how}`")
+        } else {
+            how.into()
+        };
         table += &format!("| {statement} | {} | {figure} | {how} |\n", evidence.word());
     }
     table

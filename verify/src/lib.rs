@@ -2,7 +2,9 @@
 //!
 //! The modules stand in the order in which data flows. Inputs: [`scenes`] reads, makes and frames them, [`matrix`] is the
 //! set that every tracer is held against, [`directed`] makes rays that lie where decisions are close, [`seed`] draws what
-//! is random. What is judged: [`subject`]. How: [`judge`] by bits and by error bounds, [`visible`] from inside the grid
+//! is random. What is judged: [`subject`], of other people `peers` (behind
+//! the feature of that name). How: [`judge`] by bits and by error bounds and by an outside witness
+//! (`embree`, behind the feature of that name), [`visible`] from inside the grid
 //! tracer; a [`verdict`] is what they say. [`run`] does it all for one frame; [`claims`], [`picture`] and [`report`] show it.
 
 pub mod directed;
@@ -12,6 +14,12 @@ pub mod seed;
 pub mod small;
 
 pub mod subject;
+
+#[cfg(feature = "peers")]
+pub mod peers;
+
+#[cfg(feature = "embree")]
+pub mod embree;
 
 pub mod judge;
 pub mod verdict;

@@ -5,6 +5,7 @@
 //! is reported as not judged; only a truth that cannot be had is an error.
 
 use crate::judge::judge;
+use crate::judge::outside::{Witness, hear};
 use crate::picture::PictureError;
 use crate::report::{Counter, Judge, ScenePictures, SceneReport, SubjectReport};
 use crate::subject::{Naive, Promise, Rendered, Rounding, Subject, SubjectError};
@@ -44,18 +45,22 @@ pub enum RunError {
     /// A picture for the report failed.
     #[error(transparent)]
     Picture(#[from] PictureError),
+    /// An outside witness failed.
+    #[error("no word from an outside judge: {0}")]
+    Witness(SubjectError),
 }
 
 /// Called before each rendering with its name and its rows; the closure it gives is called once a row.
 pub type Progress<'a> = &'a dyn Fn(&str, u32) -> Box<dyn Fn() + Sync>;
 
-/// Renders the truth and every subject, and judges.
+/// Renders the truth and every subject, and judges; the truth itself is held against each outside witness.
 ///
 /// # Errors
 /// [`RunError`] if the truth cannot be had or a picture cannot be encoded.
 pub fn run(
     frame: &Frame<'_>,
     subjects: &[&dyn Subject],
+    witnesses: &[&dyn Witness],
     threads: usize,
     progress: Progress<'_>,
 ) -> Result<(SceneReport, ScenePictures), RunError> {
@@ -66,6 +71,10 @@ pub fn run(
     let hits = truth.image.ids.iter().filter(|&&id| id != MISS).count() as u64;
     let witness = Judge { name: "reference, exact".into(), counters: counters(camera, truth.undecided) };
     let truth = truth.image;
+    let mut outside = Vec::new();
+    for witness in witnesses {
+        outside.extend(hear(scene, camera, &truth, *witness).map_err(RunError::Witness)?);
+    }
     let mut pictures = ScenePictures::new(&truth)?;
     let mut reports = Vec::new();
     let mut naive = NaivePictures::default();
@@ -118,6 +127,7 @@ pub fn run(
         hits,
         picture: None,
         subjects: reports,
+        outside,
     };
     Ok((report, pictures))
 }

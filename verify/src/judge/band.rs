@@ -10,6 +10,14 @@
 //! - *Perpendicular.* w = 1/a: 4u. h = b w: 10uF/n. |l|²: 6uLF + 3uL² + 170 (uF)²; r²: ur²; the difference:
 //!   uD. So D is off by at most u (6LF + 4L² + 2r²) + 170 (uF)². √(D w): 4u. The sum: 1u.
 //!
+//! - *Embree's sphere points* (its `sphere_intersector.h`), the perpendicular form with an estimate for w: `rcpps` is
+//!   off by at most 1.5·2⁻¹² and one Newton step squares that, 2.25u, and rounds twice; with a's 3u, w: 8u (`rcp14`
+//!   and fused steps lose less). h: 13uF/n. |l|²: 6uLF + 3uL² + 256 (uF)². √(D w): 6u. Of what it must find, its boxes
+//!   take something off: a box is c ± r, rounded, and crossing one (`node_intersector1.h`, robust) may fail where less
+//!   than 1u of t lies within; so the sphere is certain to be found, and before any box behind t (1 + 3u) is given up,
+//!   if the ray hits the smaller one of radius r − e, e = u (max|cᵢ| + r) + u (F + r). Rays are asked
+//!   from t = 2⁻¹²⁶ on, the least that is not flushed to zero.
+//!
 //! Terms of second order and v are covered by 2 % on top. A t that fits f32 is then rounded once more.
 //! Nothing is stated where f32 could over- or underflow on the way.
 
@@ -20,10 +28,10 @@ use reference::Ray;
 /// What rounding can make of a ray and a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
-    /// Calling it a miss can be explained.
-    pub may_miss: bool,
     /// Calling it a hit can be explained, with t from the first to the second.
     pub may_hit: Option<[f64; 2]>,
+    /// Calling it a miss cannot be explained, nor can a hit on something behind this t.
+    pub must_hit: Option<f64>,
 }
 
 /// The band of a ray and a sphere; `None` if the form's bound states nothing for them.
@@ -32,13 +40,50 @@ pub fn band(rounding: Rounding, ray: &Ray, sphere: &Sphere) -> Option<Band> {
     let geometry = Geometry::new(ray, sphere);
     match rounding {
         Rounding::TextbookF64 => Some(geometry.textbook(V)),
-        Rounding::TextbookF32 => geometry.in_range().then(|| geometry.textbook(U)),
-        Rounding::PerpendicularF32 => geometry.in_range().then(|| geometry.perpendicular(U)),
+        Rounding::TextbookF32 => geometry.in_range(GRADUAL).then(|| geometry.textbook(U)),
+        Rounding::PerpendicularF32 => geometry.in_range(GRADUAL).then(|| geometry.perpendicular(&NAIVE)),
     }
+}
+
+/// The band of a ray and a sphere point of Embree's; `None` if nothing is stated for them.
+#[must_use]
+pub fn embree_band(ray: &Ray, sphere: &Sphere) -> Option<Band> {
+    Geometry::new(ray, sphere).embree(sphere)
 }
 
 const U: f64 = 1.0 / (1u64 << 24) as f64;
 const V: f64 = 1.0 / (1u64 << 53) as f64;
+
+/// 2⁴⁰ times the least f32, and 2⁴⁰ times the least that is not flushed to zero.
+const GRADUAL: f64 = f64::from_bits((1023 - 109) << 52);
+const FLUSHED: f64 = f64::from_bits((1023 - 86) << 52);
+
+/// What tells the perpendicular forms apart, in u: the errors of h and √(D w), and the second-order term of |l|².
+struct Perpendicular {
+    h: f64,
+    root: f64,
+    second: f64,
+}
+
+const NAIVE: Perpendicular = Perpendicular { h: 10.0, root: 4.0, second: 170.0 };
+const EMBREE: Perpendicular = Perpendicular { h: 13.0, root: 6.0, second: 256.0 };
+
+/// What comes before and after the formula itself: what a search may lose of D before the formula is asked, and the
+/// least t that counts, below which none is given either if that is not 0.
+#[derive(Clone, Copy)]
+struct Search {
+    lost: f64,
+    least: f64,
+    floor: f64,
+}
+
+const EVERY_SPHERE: Search = Search { lost: 0.0, least: LEAST, floor: 0.0 };
+/// The least f32.
+const LEAST: f64 = f32::from_bits(1) as f64;
+/// The least normal f32, from which on rays are asked.
+const LEAST_NORMAL: f64 = f64::from_bits((1023 - 126) << 52);
+/// Embree drops a sphere of a number beyond 1.844·10¹⁸ and says nothing.
+const LARGE: f64 = f64::from_bits((1023 + 60) << 52);
 
 struct Geometry {
     a: f64,
@@ -57,10 +102,10 @@ impl Geometry {
     }
 
     /// Whether f32 neither overflows nor loses anything that counts to underflow: the largest product a F² (and
-    /// b², which is no larger) stays below 2¹²⁶; r², a r² and r²/a stay 2⁴⁰ times above the least f32, and
-    /// so does a; 1/a and (F² + r²)/a, which bounds t² and what is under the root, stay below 2¹²⁶ too.
-    fn in_range(&self) -> bool {
-        let (large, small) = (2f64.powi(126), 2f64.powi(-109));
+    /// b², which is no larger) stays below 2¹²⁶; r², a r² and r²/a stay above `small`, and so does a;
+    /// 1/a and (F² + r²)/a, which bounds t² and what is under the root, stay below 2¹²⁶ too.
+    fn in_range(&self, small: f64) -> bool {
+        let large = 2f64.powi(126);
         let square = self.ff + self.rr;
         square < large
             && self.a < large
@@ -68,47 +113,97 @@ impl Geometry {
             && self.rr > small
             && self.a > small
             && self.a * self.rr > small
-            && self.rr / self.a > small
-            && self.a.recip() < large
-            && square / self.a < large
+            && self.rr > small * self.a
+            && 1.0 < large * self.a
+            && square < large * self.a
     }
 
     fn textbook(&self, u: f64) -> Band {
         let (far, n) = (self.ff.sqrt(), self.a.sqrt());
         let discriminant = self.b * self.b - self.a * (self.ff - self.rr);
         let error = 1.02 * 21.0 * (u + V) * self.a * (self.ff + self.rr);
-        let b = Span::about(-self.b, 1.02 * 4.0 * (u + V) * far * n);
-        let s = Span::root(discriminant, error).widen(1.02 * (u + V));
-        let t = |sum: Span| sum.scale(1.0 / self.a).widen(1.02 * 5.0 * (u + V));
-        roots(discriminant, error, t(b.minus(s)), t(b.plus(s)))
+        let roots = |error: f64| {
+            let b = Span::about(-self.b, 1.02 * 4.0 * (u + V) * far * n);
+            let s = Span::root(discriminant, error).widen(1.02 * (u + V));
+            let t = |sum: Span| sum.scale(1.0 / self.a).widen(1.02 * 5.0 * (u + V));
+            [t(b.minus(s)), t(b.plus(s))]
+        };
+        banded(discriminant, error, EVERY_SPHERE, roots)
     }
 
-    fn perpendicular(&self, u: f64) -> Band {
+    fn perpendicular(&self, form: &Perpendicular) -> Band {
+        self.perpendicular_found(form, EVERY_SPHERE)
+    }
+
+    /// Sphere points of Embree. Its direction has no component below 10⁻¹⁸: with a above 2⁻⁴⁰ the ray strays by less
+    /// than 2⁻³⁹ F, which is put on top of what its boxes lose.
+    fn embree(&self, sphere: &Sphere) -> Option<Band> {
+        let r = f64::from(sphere.radius);
+        let corner = sphere.center.iter().map(|x| f64::from(x.abs())).fold(0.0, f64::max);
+        if !self.in_range(FLUSHED) || self.a < 2f64.powi(-40) || self.ff > LARGE * LARGE || corner + r > LARGE
+        {
+            return None;
+        }
+        // Far below any error of D: nearly all spheres of a ray go no further.
+        let discriminant = self.b * self.b - self.a * (self.ff - self.rr);
+        if discriminant < -2f64.powi(-20) * self.a * (self.ff + self.rr) {
+            return Some(Band { may_hit: None, must_hit: None });
+        }
+        let far = self.ff.sqrt();
+        let lost = 1.02 * U * ((corner + r) + (far + r)) + 2f64.powi(-39) * far;
+        Some(self.perpendicular_found(
+            &EMBREE,
+            Search { lost: 2.0 * r * lost, least: LEAST_NORMAL, floor: LEAST_NORMAL },
+        ))
+    }
+
+    fn perpendicular_found(&self, form: &Perpendicular, search: Search) -> Band {
         let (far, n) = (self.ff.sqrt(), self.a.sqrt());
         let ll = (self.ff - self.b * self.b / self.a).max(0.0);
-        let error = u * (6.0 * ll.sqrt() * far + 4.0 * ll + 2.0 * self.rr) + 170.0 * u * u * self.ff;
+        let error = U * (6.0 * ll.sqrt() * far + 4.0 * ll + 2.0 * self.rr) + form.second * U * U * self.ff;
         let error = 1.02 * error + 10.0 * V * self.ff;
-        let h = Span::about(-self.b / self.a, 1.02 * 10.0 * u * far / n);
-        let s = Span::root((self.rr - ll) / self.a, error / self.a).widen(1.02 * 4.0 * u);
-        let t = |sum: Span| sum.widen(1.02 * u);
-        roots(self.rr - ll, error, t(h.minus(s)), t(h.plus(s)))
+        let roots = |error: f64| {
+            let h = Span::about(-self.b / self.a, 1.02 * form.h * U * far / n);
+            let s = Span::root((self.rr - ll) / self.a, error / self.a).widen(1.02 * form.root * U);
+            let t = |sum: Span| sum.widen(1.02 * U);
+            [t(h.minus(s)), t(h.plus(s))]
+        };
+        banded(self.rr - ll, error, search, roots)
     }
 }
 
-/// The shared ending of rule 5: near if it is above 0, else far; a hit if D >= 0 and t > 0.
-fn roots(discriminant: f64, error: f64, near: Span, far: Span) -> Band {
-    // Rounding of t to f32 in the end (once more than needed for the f32 forms), and the least f32.
-    let [near, far] = [near, far].map(|t| t.widen(U).add(2f64.powi(-149)));
+/// The shared ending of rule 5: near if it is above 0, else far; a hit if D >= 0 and t > 0. `roots` gives the roots for
+/// a D that is off by so much.
+fn banded(discriminant: f64, error: f64, search: Search, roots: impl Fn(f64) -> [Span; 2]) -> Band {
+    let Search { lost, least, floor } = search;
+    if discriminant + error < 0.0 {
+        return Band { may_hit: None, must_hit: None };
+    }
+    // Rounding of t to f32 in the end (once more than needed for the f32 forms), and the least t.
+    let ends = |error| roots(error).map(|t: Span| t.widen(U).add(least));
+    let (may_hit, takes_far) = reachable(ends(error), floor);
+    if discriminant - error - lost < 0.0 {
+        return Band { may_hit, must_hit: None };
+    }
+    let [near, far] = ends(error + lost);
+    let certain = !(takes_far && far.lo <= 0.0);
+    // Boxes are crossed at t (1 + 3u) at most where something is lost.
+    let delay = if lost > 0.0 { 1.0 + 4.0 * U } else { 1.0 };
+    let (latest, _) = reachable([near, far], floor);
+    Band { may_hit, must_hit: latest.filter(|_| certain).map(|[_, hi]| hi * delay) }
+}
+
+/// From where to where a t above 0, and not below `floor`, can lie, and whether it can be that of the far root.
+fn reachable([near, far]: [Span; 2], floor: f64) -> (Option<[f64; 2]>, bool) {
     let takes_far = near.lo <= 0.0;
     let mut t: Option<[f64; 2]> = None;
     for root in [Some(near), takes_far.then_some(far)].into_iter().flatten().filter(|root| root.hi > 0.0) {
         let [lo, hi] = t.unwrap_or([root.lo, root.hi]);
         // What rounds to more than the largest f32 is an infinite t.
         let top = if root.hi > f64::from(f32::MAX) { f64::INFINITY } else { root.hi };
-        t = Some([lo.min(root.lo).max(0.0), hi.max(top)]);
+        t = Some([lo.min(root.lo).max(floor), hi.max(top)]);
     }
-    let may_hit = t.filter(|_| discriminant + error >= 0.0);
-    Band { may_miss: discriminant - error < 0.0 || (takes_far && far.lo <= 0.0), may_hit }
+    (t, takes_far)
 }
 
 #[derive(Clone, Copy)]

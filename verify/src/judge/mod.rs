@@ -1,11 +1,14 @@
 //! Judges: the truth is the reference's `Exact` picture; a subject's picture is compared with it bit by bit,
 //! and every difference is held against the error bound of the subject's own promise.
 //!
+//! Who judges the truth itself is an [`outside`] witness, ray by ray, and integers between the two.
+//!
 //! In: truth, subject's picture, promise, and for a promise of equality the naive picture of the same form.
 //! Out: a [`Judgement`]. A picture that cannot be compared is `Wrong`, one that was never made `NotJudged`.
 
 pub mod band;
 pub mod compare;
+pub mod outside;
 
 use crate::subject::{Promise, Rounding};
 use crate::verdict::{Comparison, Verdict};
@@ -143,8 +146,7 @@ fn explains(scene: &Scene, ray: &Ray, rounding: Rounding, fault: Fault, id: u32,
     }
     for sphere in scene.spheres() {
         let band = band(rounding, ray, sphere)?;
-        let certain = band.may_hit.filter(|_| !band.may_miss);
-        if certain.is_some_and(|[_, hi]| id == MISS || hi < f64::from(t)) {
+        if band.must_hit.is_some_and(|hi| id == MISS || hi < f64::from(t)) {
             return Some(false);
         }
     }

@@ -2,12 +2,13 @@
 //! Judges and commands fill it; nothing here measures, reads a clock or looks at the machine. Every public field
 //! is written to `report.json` under its own name, so a changed field means a new [`SCHEMA_VERSION`].
 
+use crate::judge::outside::Hearing;
 use crate::verdict::{Comparison, Verdict};
 use contract::Camera;
 use serde::Serialize;
 
 /// Version of the layout of `report.json`.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// Everything one run found out.
 #[derive(Clone, Debug, Serialize)]
@@ -82,6 +83,8 @@ pub struct SceneReport {
     pub picture: Option<String>,
     /// The subjects.
     pub subjects: Vec<SubjectReport>,
+    /// What outside witnesses said of the judge, and it of them.
+    pub outside: Vec<Hearing>,
 }
 
 /// A camera, in decimal and in bits.
@@ -207,6 +210,8 @@ pub struct Absent {
     pub judge: String,
     /// Why, and what would make it speak.
     pub why: String,
+    /// Whether it was asked for: then there is no verdict without it.
+    pub needed: bool,
 }
 
 impl From<[f32; 3]> for Vector {
@@ -226,11 +231,18 @@ impl From<&Camera> for CameraRecord {
     }
 }
 
-/// The verdict on a whole run: its worst part. One wrong subject makes it wrong, one that nobody judged makes it
-/// not judged, and so does an empty run.
+/// The verdict on a whole run: its worst part. One wrong subject or witness makes it wrong, one that nobody judged makes
+/// it not judged, and so do a judge that was asked for and is absent, and an empty run.
 #[must_use]
-pub fn overall(scenes: &[SceneReport]) -> Verdict {
-    let verdicts = scenes.iter().flat_map(|scene| &scene.subjects).map(|subject| subject.verdict);
+pub fn overall(scenes: &[SceneReport], absent: &[Absent]) -> Verdict {
+    let subjects = scenes.iter().flat_map(|scene| &scene.subjects).map(|subject| subject.verdict);
+    let witnesses = scenes.iter().flat_map(|scene| &scene.outside).map(Hearing::verdict);
+    let missing = absent.iter().filter(|judge| judge.needed).map(|_| Verdict::NotJudged);
+    // Witnesses alone are no run: what is judged is subjects.
+    if scenes.iter().all(|scene| scene.subjects.is_empty()) {
+        return Verdict::NotJudged;
+    }
+    let verdicts = subjects.chain(witnesses).chain(missing);
     let badness = |verdict: &Verdict| match verdict {
         Verdict::Equal => 0,
         Verdict::WithinBound => 1,

@@ -2,6 +2,7 @@
 //! A [`Report`] and the pictures of its scenes come in, the page goes out. All text is escaped by the template
 //! `templates/report.html`; its content security policy forbids it to load anything.
 
+use super::outside;
 use super::pictures::ZOOM_SIDE;
 use super::view::{Badge, HEADINGS, SceneView};
 use super::words::{VERDICTS, sentence};
@@ -17,6 +18,7 @@ struct Page<'a> {
     sentence: &'static str,
     tally: Vec<(Badge, usize)>,
     headings: [&'static str; 12],
+    outside_headings: Vec<String>,
     legend: Vec<(String, &'static str)>,
     how_drawn: String,
     zoom_side: u32,
@@ -39,6 +41,11 @@ pub fn html(report: &Report, pictures: &[ScenePictures]) -> Result<String, askam
         sentence: sentence(report.verdict),
         tally: tally(report),
         headings: HEADINGS,
+        outside_headings: outside::HEADINGS
+            .map(str::to_owned)
+            .into_iter()
+            .chain(outside::classes())
+            .collect(),
         legend: PALETTE
             .iter()
             .map(|(_, [r, g, b], what)| (format!("#{r:02x}{g:02x}{b:02x}"), *what))

@@ -11,6 +11,7 @@ mod folder;
 mod html;
 mod json;
 mod names;
+mod outside;
 mod pictures;
 mod text;
 mod view;

@@ -2,6 +2,7 @@
 //! [`TEXT_WIDTH`] columns wide, with or without colour. A [`Report`] comes in, text with a newline at its end goes
 //! out. Long names end in an ellipsis; control characters in them are replaced, so no name can steer a terminal.
 
+use super::outside::sentences;
 use super::words::{NONE, count, mega_rays, sign, word};
 use super::{Report, SceneReport, SubjectReport};
 use crate::verdict::Verdict;
@@ -74,12 +75,13 @@ fn line(row: &[String; 8], widths: &[usize; 8], verdict: Style) -> String {
     format!("{}\n", line.trim_end())
 }
 
-/// Who did not judge, and the word for the whole.
+/// What outside witnesses said, who did not judge, and the word for the whole.
 fn ending(report: &Report, color: bool) -> String {
+    let said: String = report.scenes.iter().flat_map(sentences).map(|line| wrapped(&line) + "\n").collect();
     let absent = report.absent.iter().map(|absent| format!("{}: not judged. {}", absent.judge, absent.why));
     let absent: String = absent.map(|line| wrapped(&line) + "\n").collect();
     let verdict = style(report.verdict, color);
-    format!("{absent}{verdict}{} {}{verdict:#}\n", sign(report.verdict), word(report.verdict))
+    format!("{said}{absent}{verdict}{} {}{verdict:#}\n", sign(report.verdict), word(report.verdict))
 }
 
 fn wrapped(line: &str) -> String {

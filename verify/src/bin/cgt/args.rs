@@ -48,6 +48,8 @@ pub(crate) enum Command {
 const SUBJECTS: [&str; 6] =
     ["naive-f64", "naive-f32-perpendicular", "naive-f32-textbook", "fast", "safe", "paper"];
 const PLANS: [&str; 3] = ["fast", "safe", "paper"];
+/// The outside judge.
+pub(crate) const EMBREE: &str = "embree";
 
 #[derive(Args, Debug)]
 pub(crate) struct Verify {
@@ -67,6 +69,9 @@ pub(crate) struct Verify {
     /// Cells of the grid on each axis, 1 to 64 [default: 16 for the plan `paper`, chosen for the scene for the others]
     #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(1..=64))]
     pub(crate) grid: Option<u8>,
+    /// Have the exact pictures themselves judged by a tracer from outside; without it there is then no verdict
+    #[arg(long, value_name = "NAME", value_parser = [EMBREE])]
+    pub(crate) judges: Vec<String>,
     /// Folder of the report; files of the same names in it are replaced
     #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
     pub(crate) out: PathBuf,

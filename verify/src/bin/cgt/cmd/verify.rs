@@ -1,6 +1,6 @@
 //! `cgt verify`: scenes in, verdicts on the terminal and a report folder out.
 
-use crate::args::Verify;
+use crate::args::{EMBREE, Verify};
 use crate::environment::{environment, quoted};
 use crate::{Failure, progress, say};
 use contract::Scene;
@@ -8,6 +8,7 @@ use optimized::Level;
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 use verify::claims::claims;
+use verify::judge::outside::Witness;
 use verify::picture::check_folder;
 use verify::report::{Absent, Report, SCHEMA_VERSION, overall, text, write};
 use verify::run::{Frame, run};
@@ -20,6 +21,8 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     let levels = levels(args)?;
     let owned = subjects(args, &levels);
     let subjects: Vec<&dyn Subject> = owned.iter().map(AsRef::as_ref).collect();
+    let (judges, absent) = outside(args);
+    let witnesses: Vec<&dyn Witness> = judges.iter().map(AsRef::as_ref).collect();
     check_folder(&args.out)?;
     let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
     for word in &args.scenes {
@@ -37,19 +40,20 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
             warnings: &warnings,
             replay: &format!("cgt verify {}{}", quoted(word), args.view.words()),
         };
-        let (report, set) =
-            run(&frame, &subjects, args.view.threads(), &|what, rows| progress::bar(word, what, rows))?;
+        let (report, set) = run(&frame, &subjects, &witnesses, args.view.threads(), &|what, rows| {
+            progress::bar(word, what, rows)
+        })?;
         scenes.push(report);
         pictures.push(set);
     }
     let report = Report {
         schema_version: SCHEMA_VERSION,
         title: format!("Verdict on {}", args.scenes.join(", ")),
-        verdict: overall(&scenes),
+        verdict: overall(&scenes, &absent),
         environment: environment(args.view.threads(), &levels),
         scenes,
         claims: claims(),
-        absent: vec![Absent { judge: "Embree".into(), why: "This version does not ask it.".into() }],
+        absent,
     };
     let paths = write(&args.out, &report, &pictures)?;
     let verdict = text(&report, std::io::stdout().is_terminal());
@@ -59,6 +63,32 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
         Verdict::Wrong => ExitCode::from(1),
         Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
     })
+}
+
+/// The outside judges that were asked for and are there, and those that will not speak.
+fn outside(args: &Verify) -> (Vec<Box<dyn Witness>>, Vec<Absent>) {
+    let needed = args.judges.iter().any(|judge| judge == EMBREE);
+    let absent = |why: String| vec![Absent { judge: "Embree".into(), why, needed }];
+    if !needed {
+        return (Vec::new(), absent("It was not asked; --judges embree asks it.".into()));
+    }
+    match embree() {
+        Ok(witness) => (vec![witness], Vec::new()),
+        Err(why) => (Vec::new(), absent(why)),
+    }
+}
+
+#[cfg(feature = "embree")]
+fn embree() -> Result<Box<dyn Witness>, String> {
+    match verify::embree::Embree::new() {
+        Ok(embree) => Ok(Box::new(embree)),
+        Err(error) => Err(format!("It is there and cannot be used: {error}.")),
+    }
+}
+
+#[cfg(not(feature = "embree"))]
+fn embree() -> Result<Box<dyn Witness>, String> {
+    Err("This program was built without it; tests/with-embree builds it with.".into())
 }
 
 /// The levels at which the grid tracer is judged.
