@@ -1,1 +1,110 @@
+//! Does the error bound of the f32 stage hold, and is half of it too little? On all inputs of two domains of small floats, and on
+//! inputs made so that roundings add up, at the precision that ships.
 
+use optimized::bound::NEAREST;
+use optimized::host::Scalar;
+use optimized::machine::{LANES, Machine};
+use rayon::prelude::*;
+use verify::bounds::{Directions, Said, Trial, Whole, adverse, all_directions};
+use verify::seed::{count, generator, seed};
+use verify::small::{Mode, Small};
+
+/// All of these balls against all of these rays.
+fn exhaust(small: Small, factor: f32, balls: &[Whole], directions: &[Directions]) -> Said {
+    let trial = Trial { machine: small, unit: small.unit(), factor };
+    let said = balls.par_iter().map(|ball| {
+        let mut said = Said::default();
+        for directions in directions {
+            trial.check(ball, directions, &mut said);
+        }
+        said
+    });
+    said.reduce(Said::default, |x, y| x + y)
+}
+
+/// Balls whose own coordinates are any of these, the eye at any of those on each axis.
+fn balls(own: [&[i64]; 3], eyes: &[i64], radii: &[i64]) -> Vec<Whole> {
+    let axis = |i: usize| own[i].iter().flat_map(|&x| eyes.iter().map(move |&eye| (x, eye)));
+    let mut balls = Vec::new();
+    for a in axis(0) {
+        for y in axis(1) {
+            for z in axis(2) {
+                for &radius in radii {
+                    let eye = [a.1, y.1, z.1];
+                    balls.push(Whole { center: [a.0 - a.1, y.0 - y.1, z.0 - z.1], eye, radius });
+                }
+            }
+        }
+    }
+    balls
+}
+
+/// 8-bit floats (sign, 4 bits of exponent, 3 of fraction): all rays with whole directions of 4 bits against all balls with whole
+/// coordinates of 4 bits and the eye at 0 or −1 on every axis, so that the difference may need 5 bits. Of the 15 radii
+/// `CGT_BOUND_RADII` are taken, 1 every day.
+#[test]
+fn it_holds_for_all_floats_of_8_bits() {
+    let radii = i64::try_from(count("CGT_BOUND_RADII", 1)).expect("at most 15").clamp(1, 15);
+    let radii: Vec<i64> = (0..radii).map(|i| 1 + i * 15 / radii).collect();
+    let (signed, ahead): (Vec<i64>, Vec<i64>) = ((-15..=15).collect(), (1..=15).collect());
+    let balls = balls([&ahead, &signed, &signed], &[0, -1], &radii);
+    let directions = all_directions(4, 15);
+    for mode in [Mode::Nearest, Mode::Truncating] {
+        let said = exhaust(Small { bits: 4, mode }, 1.0, &balls, &directions);
+        eprintln!("{mode:?}: {said:?}");
+        assert_eq!(said.wrong, 0, "{mode:?}: {:?}", said.first);
+        assert_eq!(said.inputs, (balls.len() * directions.len() * LANES) as u64);
+        assert!(said.roots > said.inputs / 1000, "{mode:?}: hardly a root, nothing is at stake");
+        assert!(said.misses > said.inputs / 2000, "nothing was decided");
+    }
+}
+
+/// Floats with 8 significant bits (those of bfloat16): all rays within 4 of the diagonal, all balls of small radius whose
+/// coordinates are the floats just above a power of two, the eye at either end of what rounding takes off.
+#[test]
+fn it_holds_for_all_floats_about_the_worst_case_and_half_of_it_does_not() {
+    let small = Small { bits: 8, mode: Mode::Nearest };
+    let near: Vec<i64> = (128..=132).map(|x| 64 * x).collect();
+    let balls = balls([&[64 * 131], &near, &near], &[-29, 29], &[16, 18, 20]);
+    let directions = all_directions(8, 4);
+    for (factor, holds) in [(1.0, true), (0.5, false)] {
+        let said = exhaust(small, factor, &balls, &directions);
+        eprintln!("{factor} of the bound: {said:?}");
+        assert_eq!(said.wrong == 0, holds, "{factor} of the bound: {:?}", said.first);
+        assert!(said.roots > said.inputs / 1000 && said.misses > said.inputs / 1000, "nothing is at stake");
+    }
+}
+
+/// `CGT_BOUND_CASES` adverse inputs, 200,000 every day.
+fn adversity<M: Machine + Sync + Send>(trial: Trial<M>, small: Small) -> Said {
+    let (seed, cases) = (seed(), count("CGT_BOUND_CASES", 200_000));
+    let said = (0..cases).into_par_iter().map(|i| {
+        let (ball, direction) = adverse(small, i % 2 == 1, &mut generator(seed, i));
+        let mut said = Said::default();
+        trial.check(&ball, &[direction; LANES], &mut said);
+        said
+    });
+    let said = said.reduce(Said::default, |x, y| x + y);
+    eprintln!("CGT_SEED={seed}, {small:?}, {} of the bound for {:e}: {said:?}", trial.factor, trial.unit);
+    said
+}
+
+#[test]
+fn it_holds_where_roundings_add_up_and_half_of_it_does_not() {
+    let f32s = Small { bits: 24, mode: Mode::Nearest };
+    let whole = adversity(Trial { machine: Scalar, unit: NEAREST, factor: 1.0 }, f32s);
+    assert_eq!(whole.wrong, 0, "{:?}", whole.first);
+    let half = adversity(Trial { machine: Scalar, unit: NEAREST, factor: 0.5 }, f32s);
+    assert!(half.wrong > half.inputs / 1000, "half of the bound is hardly ever too little: {half:?}");
+}
+
+/// Truncation needs twice the unit roundoff of rounding to nearest.
+#[test]
+fn truncation_needs_its_own_bound() {
+    let small = Small { bits: 12, mode: Mode::Truncating };
+    let own = adversity(Trial { machine: small, unit: small.unit(), factor: 1.0 }, small);
+    assert_eq!(own.wrong, 0, "{:?}", own.first);
+    let nearest = Small { mode: Mode::Nearest, ..small }.unit();
+    let others = adversity(Trial { machine: small, unit: nearest, factor: 1.0 }, small);
+    assert!(others.wrong > 0, "the bound for rounding to nearest is enough: {others:?}");
+}

@@ -28,17 +28,19 @@
 //! # The sign of D
 //!
 //! The centre is rounded once (c is a difference of f32), and so is each slope, which is off by at most u/2, since it is at
-//! most 1. So the product y c_A is off by at most (u/2)(1 + u)² m + γ_2 |y c_A|, and
-//! with K = (1 + u)(u + γ_2 + (1 + u)² u/2)
+//! most 1. With |c_Y| <= |e_Y| + |y c_A|, and |y c_A| <= m,
 //!
 //! ```text
-//! |ê_Y − e_Y| <= γ_2 |e_Y| + K m                        since |c_Y| <= |e_Y| + |y c_A| and |y c_A| <= m; likewise Z
+//! ê_Y − e_Y = α_Y + η y,   |η| <= u m (the rounding of c_A),   |α_Y| <= γ_2 |e_Y| + K m
+//! K = (1 + u) (u [c_Y] + (1 + u) u/2 [slope] + (1 + u) u [product]) + u²
 //! ```
 //!
-//! The map (e_Y, e_Z) → e stretches by at most √a. The products in e_X have three roundings each. So, with a <= 3,
+//! and likewise Z, with the same η. The map v = (v_Y, v_Z) → (v_Y z − v_Z y, v_Y, v_Z) takes e_Y, e_Z to e, and with s = (y, z) it takes
+//! α + η s to a vector of the length √(a |α|² + a η² − (α·s − η)²), at most √a √(|α|² + η²), where |α| <= √2 K m but for the part with
+//! γ_2. The products in e_X have three roundings each, slope included. So, with a <= 3,
 //!
 //! ```text
-//! |ê − e| <= P + R |e|,   P = (√6 + 2γ_3) K m,   R = √3 γ_2 + √2 γ_3 (1 + γ_2)
+//! |ê − e| <= P + R |e|,   P = √(6K² + 3u²) m + 2γ_3 (K + u) m,   R = √3 γ_2 + √2 γ_3 (1 + γ_2)
 //! ```
 //!
 //! |ê|² is summed with at most three roundings on a term. The computed a is off by at most β = (γ_2 + 2γ_5)/3 of itself, a r² by
@@ -57,7 +59,7 @@
 //! of itself, so a product with it by τ − 1, τ = (1 + η)(1 + u). With the same |ê − e|, for Y and Z alone, and √2 √(a − 1) / a <= √(1/2),
 //!
 //! ```text
-//! |(ŷ ê_Y + ẑ ê_Z) / a − (h − c_A)| <= τ [√(1/2) (1 + γ_3) K m + √(2/3) (γ_2 + γ_3 (1 + γ_2)) r] + (τ − 1) r
+//! |(ŷ ê_Y + ẑ ê_Z) / a − (h − c_A)| <= τ [√(1/2) (1 + γ_3) (K + u) m + √(2/3) (γ_2 + γ_3 (1 + γ_2)) r] + (τ − 1) r
 //! ```
 //!
 //! to which u m comes from c_A, and u times the sum. The half chord is taken from D with its threshold added or subtracted, so
@@ -97,9 +99,9 @@ impl Bound {
         let (u, m, r) = (unit, farthest, radius);
         let gamma = |k| (1.0 + u).powi(k) - 1.0;
         let (g2, g3, g5) = (gamma(2), gamma(3), gamma(5));
-        let (root2, root3, root6) = (2f64.sqrt(), 3f64.sqrt(), 6f64.sqrt());
-        let k = (1.0 + u) * (u + g2 + (1.0 + u) * (1.0 + u) * u / 2.0);
-        let p = (root6 + 2.0 * g3) * k * m;
+        let (root2, root3) = (2f64.sqrt(), 3f64.sqrt());
+        let k = (1.0 + u) * (u + (1.0 + u) * u / 2.0 + (1.0 + u) * u) + u * u;
+        let p = ((6.0 * k * k + 3.0 * u * u).sqrt() + 2.0 * g3 * (k + u)) * m;
         let relative = root3 * g2 + root2 * g3 * (1.0 + g2);
         let beta = (g2 + 2.0 * g5) / 3.0;
         let kappa = (1.0 + beta) * (1.0 + u) * (1.0 + u) - 1.0;
@@ -112,7 +114,8 @@ impl Bound {
 
         let eta = (1.0 + u) / (1.0 - beta) - 1.0;
         let tau = (1.0 + eta) * (1.0 + u);
-        let across = 0.5f64.sqrt() * (1.0 + g3) * k * m + (2.0f64 / 3.0).sqrt() * (g2 + g3 * (1.0 + g2)) * r;
+        let across =
+            0.5f64.sqrt() * (1.0 + g3) * (k + u) * m + (2.0f64 / 3.0).sqrt() * (g2 + g3 * (1.0 + g2)) * r;
         let offset = tau * across + (tau - 1.0) * r;
         let middle = u * m + offset + u * ((1.0 + u) * m + r + offset);
         let chord = r + (above + below).sqrt();

@@ -21,6 +21,7 @@ pub mod peers;
 #[cfg(feature = "embree")]
 pub mod embree;
 
+pub mod bounds;
 pub mod judge;
 pub mod verdict;
 pub mod visible;
