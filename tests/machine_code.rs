@@ -143,6 +143,7 @@ fn render_all() -> usize {
     let camera = Camera::new([1.5, 1.5, 6.0], corner, du, dv, size).expect("a camera");
     let queues = Plan { voxelizer: Voxelizer::EightCorners, cells: Cells::Queue, ..Plan::safe() };
     let plans = [
+        Plan::fast(),
         Plan::safe(),
         Plan { walk: Loop::Nested, arithmetic: Form::Textbook.into(), ..queues },
         Plan::paper(),

@@ -74,25 +74,22 @@ pub fn nearest<'a>(
     let numbers = spheres.clone().flat_map(|(_, s)| s.center.into_iter().chain([s.radius]));
     let position = Scale::of(eye.into_iter().chain(numbers));
     let direction = Scale::of(dir.into_iter());
-    let mut best: Option<(u32, &Sphere, Root)> = None;
+    let mut best: Option<(u32, Root)> = None;
     for (id, sphere) in spheres {
-        if best.as_ref().is_some_and(|(other, twin, _)| *twin == sphere && *other < id) {
-            continue;
-        }
         let Some(root) = Root::of(eye, dir, sphere, &position, &direction) else { continue };
         let nearer = match &best {
             None => true,
-            Some((other, _, nearest)) => match root.compare(nearest) {
+            Some((other, nearest)) => match root.compare(nearest) {
                 Ordering::Less => true,
                 Ordering::Equal => id < *other,
                 Ordering::Greater => false,
             },
         };
         if nearer {
-            best = Some((id, sphere, root));
+            best = Some((id, root));
         }
     }
-    best.map(|(id, _, root)| (id, root.rounded(position.exponent - direction.exponent)))
+    best.map(|(id, root)| (id, root.rounded(position.exponent - direction.exponent)))
 }
 
 impl Root {

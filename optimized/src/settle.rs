@@ -109,18 +109,21 @@ impl Question<'_> {
         };
         let possible: Vec<(u32, [f64; 2])> = candidates.iter().filter_map(ask).collect();
         let nearest = possible.iter().map(|(_, [_, hi])| *hi).fold(f64::INFINITY, f64::min);
-        let mut rest = possible.iter().filter(|(_, [lo, _])| *lo <= nearest);
-        let Some(&(first, [_, hi])) = rest.next() else { return (f32::INFINITY, NONE) };
-        if hi.is_finite() && rest.all(|&(id, _)| id == first) {
-            let sphere = &self.spheres[first as usize];
+        let rest = possible.iter().filter(|(_, [lo, _])| *lo <= nearest);
+        let Some(&(lowest, [_, hi])) = rest.clone().min_by_key(|(id, _)| *id) else {
+            return (f32::INFINITY, NONE);
+        };
+        // One sphere, or the same several times, which the lowest id has.
+        let sphere = &self.spheres[lowest as usize];
+        let same = |other: &Sphere| (other.center, other.radius) == (sphere.center, sphere.radius);
+        if hi.is_finite() && rest.clone().all(|&(id, _)| same(&self.spheres[id as usize])) {
             let root = double::root(eye, dir, sphere.center, sphere.radius);
             let [t, above] = root.ends();
             let certain = t.to_bits() == above.to_bits();
-            let t = if certain { t } else { self.round_exactly(lane, first, counts) };
-            return (t, first.cast_signed());
+            let t = if certain { t } else { self.round_exactly(lane, lowest, counts) };
+            return (t, lowest.cast_signed());
         }
         counts.asked_integers += 1;
-        let rest = possible.iter().filter(|(_, [lo, _])| *lo <= nearest);
         let found = exact::nearest(eye, dir, rest.map(|&(id, _)| (id, &self.spheres[id as usize])));
         found.map_or((f32::INFINITY, NONE), |(id, t)| (t, id.cast_signed()))
     }
