@@ -123,10 +123,10 @@ impl Root {
         let higher = other.q.sub(&self.q);
         let outside = match steeper.sign() {
             Ordering::Equal => higher.sign(),
-            Ordering::Greater => self.against(&higher.neg(), &steeper),
-            Ordering::Less => self.against(&higher, &steeper.neg()).reverse(),
+            Ordering::Greater => self.against(&higher.negated(), &steeper),
+            Ordering::Less => self.against(&higher, &steeper.negated()).reverse(),
         };
-        place(outside, self.against(&other.b.neg(), &other.a), other.which)
+        place(outside, self.against(&other.b.negated(), &other.a), other.which)
     }
 
     /// This root against n / m, m > 0.

@@ -53,7 +53,7 @@ impl Wide {
 
     /// −x.
     #[must_use]
-    pub fn neg(mut self) -> Self {
+    pub fn negated(mut self) -> Self {
         self.negative = !self.negative && self.len > 0;
         self
     }
@@ -80,7 +80,7 @@ impl Wide {
     /// If it does not fit.
     #[must_use]
     pub fn sub(&self, other: &Self) -> Self {
-        self.add(&other.neg())
+        self.add(&other.negated())
     }
 
     /// x y.

@@ -141,10 +141,10 @@ impl Seen {
         }
         // Sixteen times the same ray is a packet with a frustum of its own.
         worker.counts.split_blocks += 1;
-        let dir = arrays(m, block);
+        let [x, y, z] = arrays(m, block);
         let mut answers = Answers::NONE;
-        for lane in 0..LANES {
-            let ray = Block::new(m, [m.splat(dir[0][lane]), m.splat(dir[1][lane]), m.splat(dir[2][lane])]);
+        for (lane, ((x, y), z)) in x.into_iter().zip(y).zip(z).enumerate() {
+            let ray = Block::new(m, [m.splat(x), m.splat(y), m.splat(z)]);
             // A direction of zero has no major axis, and hits nothing.
             let Some(frustum) = Frustum::of_block(m, &ray) else { continue };
             let alone = self.trace_packet(m, scene, &ray, &frustum, [lane, lane + 1], worker);

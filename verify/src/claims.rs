@@ -6,7 +6,7 @@ use crate::report::{Claim, Evidence};
 /// Statement, kind, figure, command.
 type Row = (&'static str, Evidence, &'static str, &'static str);
 
-const ROWS: [Row; 14] = [
+const ROWS: [Row; 16] = [
     (
         "The exact reference decides as integers without a filter do",
         Evidence::Sampled,
@@ -20,9 +20,9 @@ const ROWS: [Row; 14] = [
         "cargo test --test forms",
     ),
     (
-        "The safe plan's picture is the naive one of the same form, bit for bit",
+        "A plan's picture is the naive one of the same arithmetic, bit for bit",
         Evidence::Sampled,
-        "over 500 pictures; 128 combinations of choices at every SIMD level with 1 to 8 workers",
+        "over 500 pictures; 192 combinations of choices at every SIMD level with 1 to 8 workers",
         "cargo test --test grid",
     ),
     (
@@ -67,7 +67,25 @@ const ROWS: [Row; 14] = [
         "136 times on 1HVR at 1280x720, one thread, AVX-512, rebuild included",
         "cargo bench --bench frames",
     ),
-    ("The optimized picture equals the exact one, bit for bit", Evidence::NotShown, "0", "a later version"),
+    (
+        "The fast plan's picture is the exact one, bit for bit",
+        Evidence::Sampled,
+        "1,000,000 directed rays of 14 kinds, over 500 pictures, 10 to 10,000,000 radii away, at scales of 1e-30 to 1e30",
+        "cargo test --test certified",
+    ),
+    (
+        "The error bound of its f32 stage holds",
+        Evidence::Exhausted,
+        "all 149 million rays and balls of one radius in a domain of 8-bit floats, rounded and truncated; of half of it 2 % of \
+         adverse f32 inputs are a counterexample",
+        "cargo test --test bound",
+    ),
+    (
+        "Certainty costs at most 1.4 times the perpendicular form in f32",
+        Evidence::Measured,
+        "1.3 times, geometric mean of four scenes at 1280x720, one thread, AVX-512, rebuild included",
+        "cargo bench --bench frames",
+    ),
     (
         "The reference agrees with Embree outside the silhouettes",
         Evidence::Sampled,
