@@ -284,7 +284,7 @@ fn every_kind_of_scene_is_judged_and_agrees() {
     let names: Vec<_> = report["scenes"].as_array().expect("scenes").iter().map(|s| &s["name"]).collect();
     assert_eq!(names, scenes);
     for (scene, name) in report["scenes"].as_array().expect("scenes").iter().zip(scenes) {
-        assert_eq!(scene["subjects"].as_array().expect("subjects").len(), 4, "{name}");
+        assert_eq!(scene["subjects"].as_array().expect("subjects").len(), 5, "{name}");
         assert_eq!(scene["hits"].as_u64() > Some(0), name != "uniform:0", "{name}: {}", scene["hits"]);
     }
 }

@@ -59,7 +59,6 @@ fn judge(case: &Case, naive: &Image, plan: Plan, level: Level, workers: usize) -
         ("candidates culled", counts.culled),
         ("blocks split", counts.split_blocks),
         ("marked by f32", counts.asked_f64),
-        ("undecided by f64", counts.asked_integers),
         ("queue overflows", count(|event| matches!(event, Event::CellFull { .. }))),
         ("spans of three cells", count(|event| matches!(event, Event::SpansCells { .. }))),
         ("scenes out of range", count(|event| matches!(event, Event::OutOfRange))),
