@@ -23,7 +23,7 @@
 //!
 //! fl(x ∘ y) = (x ∘ y)(1 + δ), |δ| <= u: u = 2⁻ᵖ for p bits rounded to nearest ([`NEAREST`]: 2⁻²⁴), twice that for truncation
 //! ([`TRUNCATING`]). γ_k = (1 + u)ᵏ − 1 bounds k of them. What follows holds for every u < 1/8, not to first order only. Over- and
-//! underflow are excluded by [`in_range`]; where it says no, the bound is infinite, and the sphere is never decided in f32.
+//! underflow are excluded by the range checked below (`in_range`); where it says no, the bound is infinite, and the sphere is never decided in f32.
 //!
 //! # The sign of D
 //!

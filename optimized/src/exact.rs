@@ -6,7 +6,7 @@
 //! Positions and directions are scaled apart to integers by their least exponents. A sphere is then the parabola
 //! p(t) = a t² + 2 b t + q, whose a belongs to the ray alone, and *one* question answers all others: how does a root compare with a
 //! rational x? The sign of p(x) says whether x is outside the sphere, and the side of the vertex −b/a on which x lies says before
-//! or behind ([`place`]). No square root is taken and none squared away:
+//! or behind (`place`). No square root is taken and none squared away:
 //!
 //! - *Which of two roots is nearer?* At a root t₁ of p₁, the other parabola has the value p₂(t₁) − p₁(t₁) = 2(b₂ − b₁) t₁ + q₂ − q₁,
 //!   since the squares cancel. Its sign is how t₁ compares with a rational, and so is the side of p₂'s vertex.
