@@ -51,7 +51,7 @@ impl Work for Trace<'_> {
         let Self(seen, scene, dir) = self;
         let mut worker = Worker::default();
         let block = Block::new(m, dir.map(|d| m.lanes(d)));
-        let answers = m.within(|| seen.trace(m, scene.spheres(), &block, &mut worker));
+        let answers = m.within(|| seen.trace(m, scene.spheres(), &block, None, &mut worker));
         (answers.t, answers.id, worker.counts)
     }
 }

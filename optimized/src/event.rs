@@ -1,6 +1,6 @@
 //! What a scene did that a plan's choices do not allow, as data with the place and the numbers.
 
-use contract::SizeError;
+use contract::{Size, SizeError};
 use thiserror::Error;
 
 /// A broken precondition.
@@ -84,5 +84,13 @@ pub enum RenderError {
     Resolution {
         /// As asked for.
         cells: u8,
+    },
+    /// What a clairvoyant frame was given belongs to another one.
+    #[error("what is known belongs to a picture of {}x{}, that asked for has {}x{}", known.width(), known.height(), asked.width(), asked.height())]
+    Known {
+        /// Size of the picture from which it is known.
+        known: Size,
+        /// Size of the one asked for.
+        asked: Size,
     },
 }

@@ -65,7 +65,7 @@ pub mod event;
 pub mod frame;
 
 pub use event::{Event, Events, RenderError};
-pub use frame::Rendering;
+pub use frame::{Known, Rendering};
 pub use host::Level;
 pub use plan::Plan;
 pub use sphere::Form;
@@ -94,12 +94,64 @@ impl Tracer {
         Self { workers, ..self }
     }
 
-    /// Renders a scene, grid building included.
+    /// Renders one scene, grid building included. For more than one, [`Tracer::session`] saves getting the memory anew.
     ///
     /// # Errors
     /// [`RenderError`] if the image cannot be had or the plan refuses what the scene does.
     pub fn render(&self, scene: &Scene, camera: &Camera) -> Result<Rendering, RenderError> {
-        self.level.run(Frame { plan: self.plan, scene, camera, workers: self.workers })
+        let mut session = self.session()?;
+        session.render(scene, camera)?;
+        Ok(session.rendering)
+    }
+
+    /// A tracer at work on one frame after another.
+    ///
+    /// # Errors
+    /// [`RenderError::Size`] if there is no memory at all.
+    pub fn session(&self) -> Result<Session, RenderError> {
+        Ok(Session { tracer: *self, rendering: Rendering::nothing()? })
+    }
+}
+
+/// A tracer at work on one frame after another, each built from nothing; only memory is kept from frame to frame.
+#[derive(Clone, Debug)]
+pub struct Session {
+    tracer: Tracer,
+    rendering: Rendering,
+}
+
+impl Session {
+    /// Renders a frame.
+    ///
+    /// # Errors
+    /// As [`Tracer::render`].
+    pub fn render(&mut self, scene: &Scene, camera: &Camera) -> Result<&Rendering, RenderError> {
+        self.frame(scene, camera, None)
+    }
+
+    /// Renders a frame of which it is known what is seen in each block: no grid, no culling, no sphere in vain. It is the same kernel, and
+    /// so a limit to what a better way to the spheres could bring.
+    ///
+    /// # Errors
+    /// As [`Tracer::render`], and [`RenderError::Known`].
+    pub fn render_known(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        known: &Known,
+    ) -> Result<&Rendering, RenderError> {
+        self.frame(scene, camera, Some(known))
+    }
+
+    fn frame(
+        &mut self,
+        scene: &Scene,
+        camera: &Camera,
+        known: Option<&Known>,
+    ) -> Result<&Rendering, RenderError> {
+        let Tracer { plan, level, workers } = self.tracer;
+        level.run(Frame { plan, scene, camera, workers, known, rendering: &mut self.rendering })?;
+        Ok(&self.rendering)
     }
 }
 
@@ -108,12 +160,14 @@ struct Frame<'a> {
     scene: &'a Scene,
     camera: &'a Camera,
     workers: usize,
+    known: Option<&'a Known>,
+    rendering: &'a mut Rendering,
 }
 
 impl host::Work for Frame<'_> {
-    type Output = Result<Rendering, RenderError>;
+    type Output = Result<(), RenderError>;
 
     fn on<M: Machine + Send + Sync>(self, m: M) -> Self::Output {
-        frame::render(m, self.plan, self.scene, self.camera, self.workers)
+        frame::render(m, self.plan, self.scene, self.camera, self.workers, self.known, self.rendering)
     }
 }

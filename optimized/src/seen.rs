@@ -127,17 +127,19 @@ impl Seen {
         Self { eye, plan, spheres, bounds, grid: None }
     }
 
-    /// t and id of each ray of a block, in the scene that this was made of.
+    /// t and id of each ray of a block, in the scene that this was made of. If it is known which spheres own its pixels, they alone
+    /// are met.
     #[inline(always)]
     pub fn trace<M: Machine>(
         &self,
         m: M,
         scene: &[Sphere],
         block: &Block<M>,
+        known: Option<&[u32]>,
         worker: &mut Worker,
     ) -> Answers {
         if let Some(frustum) = Frustum::of_block(m, block) {
-            return self.trace_packet(m, scene, block, &frustum, [0, LANES], worker);
+            return self.trace_packet(m, scene, block, &frustum, [0, LANES], known, worker);
         }
         // Sixteen times the same ray is a packet with a frustum of its own.
         worker.counts.split_blocks += 1;
@@ -147,7 +149,7 @@ impl Seen {
             let ray = Block::new(m, [m.splat(x), m.splat(y), m.splat(z)]);
             // A direction of zero has no major axis, and hits nothing.
             let Some(frustum) = Frustum::of_block(m, &ray) else { continue };
-            let alone = self.trace_packet(m, scene, &ray, &frustum, [lane, lane + 1], worker);
+            let alone = self.trace_packet(m, scene, &ray, &frustum, [lane, lane + 1], known, worker);
             (answers.t[lane], answers.id[lane]) = (alone.t[lane], alone.id[lane]);
         }
         answers
@@ -160,6 +162,7 @@ impl Seen {
 
     /// The lanes `wanted` of a packet; the others may be misses.
     #[inline(always)]
+    #[allow(clippy::too_many_arguments, reason = "all of it differs from packet to packet")]
     fn trace_packet<M: Machine>(
         &self,
         m: M,
@@ -167,12 +170,13 @@ impl Seen {
         block: &Block<M>,
         frustum: &Frustum<M>,
         wanted: [usize; 2],
+        known: Option<&[u32]>,
         worker: &mut Worker,
     ) -> Answers {
         match self.plan.arithmetic {
             Arithmetic::Rounded(form) => {
                 let rounded = Rounded { form, block, frustum, nearest: Nearest::none(m) };
-                let nearest = self.meet_all(m, frustum, rounded, &mut worker.counts).nearest;
+                let nearest = self.meet_all(m, frustum, rounded, known, &mut worker.counts).nearest;
                 Answers { t: m.to_array(nearest.t), id: m.to_array_i(nearest.id) }
             }
             Arithmetic::Certified => {
@@ -184,22 +188,32 @@ impl Seen {
                     possible: &mut worker.possible,
                 };
                 certified.possible.clear();
-                let nearest = self.meet_all(m, frustum, certified, &mut worker.counts).nearest;
+                let nearest = self.meet_all(m, frustum, certified, known, &mut worker.counts).nearest;
                 let question = self.question(m, scene, block);
                 question.settle(m, &nearest, &worker.possible, wanted, &mut worker.counts)
             }
         }
     }
 
-    /// Meets every sphere that a ray may hit: those that the walk comes to and culling keeps, or without a grid all.
+    /// Meets every sphere that a ray may hit: those that are known, or those that the walk comes to and culling keeps, or without a
+    /// grid all.
     #[inline(always)]
     fn meet_all<M: Machine, H: Hits<M>>(
         &self,
         m: M,
         frustum: &Frustum<M>,
         mut hits: H,
+        known: Option<&[u32]>,
         counts: &mut Counts,
     ) -> H {
+        if let Some(ids) = known {
+            counts.candidates += ids.len() as u64;
+            for &id in ids {
+                let sphere = &self.spheres[id as usize];
+                hits.meet(m, sphere, frustum.towards(sphere.f), id);
+            }
+            return hits;
+        }
         let Some(grid) = &self.grid else {
             counts.candidates += self.spheres.len() as u64;
             for (id, sphere) in (0..).zip(&self.spheres) {
