@@ -65,7 +65,7 @@ pub struct Grid {
 #[derive(Clone, Debug)]
 enum Storage {
     Queues(Vec<Queue>),
-    Lists { offsets: Vec<u32>, ids: Vec<u32> },
+    Lists { offsets: Vec<u32>, ids: Vec<u32>, spheres: [Vec<f32>; 4] },
 }
 
 impl Bounds {
@@ -218,12 +218,27 @@ impl Grid {
                 }
             }
             Storage::Queues(_) => {}
-            Storage::Lists { offsets, ids } => {
+            Storage::Lists { offsets, ids, .. } => {
                 let start = offsets[index] as usize;
                 let end = if live { offsets[index + 1] as usize } else { start };
                 for &id in &ids[start..end] {
                     visit(id);
                 }
+            }
+        }
+    }
+
+    /// The spheres that a range of cells lists: ids, and centres and radii, these with as many numbers behind them as there are lanes.
+    #[inline(always)]
+    #[must_use]
+    pub fn row(&self, [first, last]: [usize; 2]) -> (&[u32], [&[f32]; 4]) {
+        match &self.storage {
+            Storage::Queues(_) => todo!(),
+            Storage::Lists { offsets, ids, spheres } => {
+                let (start, end) = (offsets[first] as usize, offsets[last + 1] as usize);
+                let [x, y, z, r] = spheres;
+                let part = start..end + LANES;
+                (&ids[start..end], [&x[part.clone()], &y[part.clone()], &z[part.clone()], &r[part]])
             }
         }
     }
@@ -323,7 +338,14 @@ fn fill_lists(plan: &Plan, axes: &[Axis; 3], balls: &[Bounds], boxes: &[CellBox]
             *next += 1;
         });
     }
-    Some(Storage::Lists { offsets, ids })
+    let spheres = [0, 1, 2, 3].map(|i| {
+        let of = |id: &u32| {
+            let ball = &balls[*id as usize];
+            if i < 3 { ball.center[i] } else { ball.radius }
+        };
+        ids.iter().map(of).chain([0.0; LANES]).collect()
+    });
+    Some(Storage::Lists { offsets, ids, spheres })
 }
 
 /// The cells of up to sixteen boxes.

@@ -42,23 +42,23 @@ impl Answers {
 }
 
 impl Question<'_> {
-    /// Settles the lanes `from..to`; the others stay misses.
+    /// Settles the lanes whose bits are set in `wanted`; the others stay misses.
     #[inline(always)]
     pub fn settle<M: Machine>(
         &self,
         m: M,
         nearest: &Nearest<M>,
         candidates: &[u32],
-        [from, to]: [usize; 2],
+        wanted: u32,
         counts: &mut Counts,
     ) -> Answers {
         let mut answers = Answers { id: m.to_array_i(nearest.id), ..Answers::NONE };
         let (one, zero) = (m.splat_i(1), m.splat_i(0));
         let marked = m.to_array_i(m.select_i(nearest.marked(m), one, zero));
-        counts.lanes += (to - from) as u64;
+        counts.lanes += u64::from(wanted.count_ones());
         let rounded = self.round(&answers.id);
         for lane in 0..LANES {
-            if lane < from || lane >= to {
+            if wanted >> lane & 1 == 0 {
                 answers.id[lane] = NONE;
             } else if marked[lane] != 0 {
                 counts.asked_f64 += 1;
