@@ -3,13 +3,13 @@
 
 use crate::camera::{BLOCK, CameraLanes, middles};
 use crate::event::{Events, RenderError};
-use crate::machine::{LANES, Machine};
+use crate::machine::Machine;
 use crate::plan::{Packet, Plan, Sharing};
 use crate::seen::{Counts, Seen, Worker};
-use crate::sphere::NONE;
+use crate::settle::ALL;
 use crate::stripe::{Painter, Stripe};
 use crate::tile::{Rect, Tiles};
-use contract::{Camera, Image, MISS, Scene, Size, SizeError};
+use contract::{Camera, Image, MISS, Scene, Size};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -112,8 +112,10 @@ pub fn render<M: Machine + Send + Sync>(
         Some(_) => Seen::without_grid(plan, scene.spheres(), camera.eye()),
     };
     rendering.times.build = start.elapsed();
-    clear(&mut rendering.image, camera.size(), scene.background())?;
     let image = &mut rendering.image;
+    if image.size != camera.size() {
+        *image = Image::new(camera.size(), scene.background())?;
+    }
     let side = match plan.packet {
         Packet::Block => BLOCK,
         Packet::Tile { side } => u32::from(side) * BLOCK,
@@ -163,18 +165,6 @@ pub fn render<M: Machine + Send + Sync>(
     Ok(())
 }
 
-/// Makes all of an image misses before a background, in its own memory if its size is the same.
-fn clear(image: &mut Image, size: Size, [r, g, b]: [u8; 3]) -> Result<(), SizeError> {
-    if image.size != size {
-        *image = Image::new(size, [r, g, b])?;
-        return Ok(());
-    }
-    image.ids.fill(MISS);
-    image.t.fill(f32::INFINITY);
-    image.rgba.fill([r, g, b, 255]);
-    Ok(())
-}
-
 /// Fills a stripe block by block.
 #[inline(always)]
 fn fill<M: Machine>(
@@ -197,9 +187,7 @@ fn fill<M: Machine>(
                 |known| known.block(x, y),
             );
             let answers = seen.trace(m, scene.spheres(), &block, owners, worker);
-            if answers.id != [NONE; LANES] {
-                painter.write(m, block.dir, &answers, [x, y], 0xffff, stripe);
-            }
+            painter.write(m, block.dir, &answers, [x, y], ALL, stripe);
         }
     }
 }

@@ -11,8 +11,8 @@ use crate::grid::{Bounds, Grid};
 use crate::machine::{LANES, Machine, three};
 use crate::margin;
 use crate::plan::{Arithmetic, Culling, Margins, OnEvent, Plan};
-use crate::settle::{Answers, Question};
-use crate::sphere::{Form, Nearest, Prepared};
+use crate::settle::{ALL, Answers, Question};
+use crate::sphere::{Form, NONE, Nearest, Prepared};
 use crate::walk::{Visitor, walk};
 use contract::{Camera, Scene, Sphere};
 
@@ -137,22 +137,22 @@ impl Seen {
         block: &Block<M>,
         known: Option<&[u32]>,
         worker: &mut Worker,
-    ) -> Answers {
+    ) -> Answers<M> {
         if let Some(bundle) = Bundle::of_block(m, block) {
-            return self.trace_packet(m, scene, block, &bundle, 0xffff, known, worker);
+            return self.trace_packet(m, scene, block, &bundle, ALL, known, worker);
         }
         // Sixteen times the same ray is a packet with a frustum of its own.
         worker.counts.split_blocks += 1;
         let [x, y, z] = arrays(m, block);
-        let mut answers = Answers::NONE;
+        let (mut t, mut id) = ([f32::INFINITY; LANES], [NONE; LANES]);
         for (lane, ((x, y), z)) in x.into_iter().zip(y).zip(z).enumerate() {
             let ray = Block::new(m, [m.splat(x), m.splat(y), m.splat(z)]);
             // A direction of zero has no major axis, and hits nothing.
             let Some(bundle) = Bundle::of_block(m, &ray) else { continue };
             let alone = self.trace_packet(m, scene, &ray, &bundle, 1 << lane, known, worker);
-            (answers.t[lane], answers.id[lane]) = (alone.t[lane], alone.id[lane]);
+            (t[lane], id[lane]) = (m.to_array(alone.t)[lane], m.to_array_i(alone.id)[lane]);
         }
-        answers
+        Answers { t: m.lanes(t), id: m.lanes_i(id) }
     }
 
     #[inline(always)]
@@ -172,12 +172,12 @@ impl Seen {
         wanted: u32,
         known: Option<&[u32]>,
         worker: &mut Worker,
-    ) -> Answers {
+    ) -> Answers<M> {
         match self.plan.arithmetic {
             Arithmetic::Rounded(form) => {
                 let rounded = Rounded { form, block, bundle, nearest: Nearest::none(m) };
                 let nearest = self.meet_all(m, bundle, rounded, known, &mut worker.counts).nearest;
-                Answers { t: m.to_array(nearest.t), id: m.to_array_i(nearest.id) }
+                Answers { t: nearest.t, id: nearest.id }
             }
             Arithmetic::Certified => {
                 let rays = Rays::new(m, bundle.slope);
