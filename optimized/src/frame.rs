@@ -141,7 +141,7 @@ pub fn render<M: Machine + Send + Sync>(
                     || fill_tiles(&mut tiles, side, camera, &mut stripe),
                 );
             }
-            return tiles.counts;
+            return tiles.counts();
         }
         let mut worker = Worker::default();
         while let Some(mut stripe) = next() {
