@@ -10,7 +10,7 @@ use crate::frustum::{BEYOND, Bundle, Heading, Slices};
 use crate::grid::{Bounds, Grid};
 use crate::machine::{LANES, Machine, three};
 use crate::margin;
-use crate::plan::{Arithmetic, Culling, Margins, OnEvent, Plan};
+use crate::plan::{Arithmetic, Cells, Culling, Margins, OnEvent, Packet, Plan, Voxelizer};
 use crate::settle::{ALL, Answers, Question};
 use crate::sphere::{Form, NONE, Nearest, Prepared};
 use crate::walk::{Visitor, walk};
@@ -92,24 +92,31 @@ impl Seen {
         events: &mut Events,
     ) -> Result<Self, RenderError> {
         let scene = scene.spheres();
-        let mut seen = Self::without_grid(plan, scene, camera.eye());
-        if plan.margins == Margins::Derived && !margin::in_range(scene, camera) {
+        let in_range = plan.margins == Margins::None || margin::in_range(scene, camera);
+        if !in_range {
             events.push(Event::OutOfRange);
             if plan.on_event == OnEvent::Refuse {
                 return Err(RenderError::Refused(Event::OutOfRange));
             }
-        } else if !scene.is_empty() {
-            let ball = |(p, s): (&mut Prepared, &Sphere)| {
-                let reach = margin::reach(plan.margins, plan.arithmetic, p.f, s.radius);
-                p.cull_radius = cull::radius(plan.margins, p.f, reach);
-                match plan.margins {
-                    Margins::None => Bounds::nearest(s.center, reach),
-                    Margins::Derived => Bounds::outward(s.center, reach),
-                }
-            };
-            let balls: Vec<Bounds> = seen.spheres.iter_mut().zip(scene).map(ball).collect();
-            seen.grid = Some(Grid::build(m, &plan, &balls, events)?);
         }
+        if !in_range || scene.is_empty() {
+            return Ok(Self::without_grid(plan, scene, camera.eye()));
+        }
+        if plan.packet != Packet::Block && plan.voxelizer == Voxelizer::ByCenter && plan.arithmetic == Arithmetic::Certified && plan.cells == Cells::Lists {
+            let grid = Some(Grid::by_center(m, &plan, scene)?);
+            return Ok(Self { eye: camera.eye(), plan, spheres: Vec::new(), bounds: Vec::new(), grid });
+        }
+        let mut seen = Self::without_grid(plan, scene, camera.eye());
+        let ball = |(p, s): (&mut Prepared, &Sphere)| {
+            let reach = margin::reach(plan.margins, plan.arithmetic, p.f, s.radius);
+            p.cull_radius = cull::radius(plan.margins, p.f, reach);
+            match plan.margins {
+                Margins::None => Bounds::nearest(s.center, reach),
+                Margins::Derived => Bounds::outward(s.center, reach),
+            }
+        };
+        let balls: Vec<Bounds> = seen.spheres.iter_mut().zip(scene).map(ball).collect();
+        seen.grid = Some(Grid::build(m, &plan, &balls, events)?);
         Ok(seen)
     }
 

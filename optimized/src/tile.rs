@@ -13,7 +13,7 @@ use crate::seen::Counts;
 use crate::settle::{ALL, Question};
 use crate::silhouette::{Outline, overlap};
 use crate::stripe::{Painter, Stripe};
-use contract::{Camera, Scene};
+use contract::{Camera, Scene, Sphere};
 
 /// Candidates after which a tile's blocks are looked at before its walk goes on.
 const ROUND: usize = 256;
@@ -230,9 +230,9 @@ impl<M: Machine> Work<M> {
             flags.resize(blocks, false);
         }
         self.candidates.clear();
-        let mut slice = 0;
+        self.gather_large(look, heading, range);
+        let (mut slice, mut from) = (0, 0);
         loop {
-            let from = self.candidates.ids.len();
             while slice < slices.count && self.candidates.ids.len() < from + ROUND {
                 self.gather_slice(look, heading, range, &slices, slice, stride);
                 slice += 1;
@@ -245,6 +245,7 @@ impl<M: Machine> Work<M> {
                 return;
             }
             self.candidates.trim();
+            from = self.candidates.ids.len();
         }
     }
 
@@ -520,59 +521,84 @@ impl<M: Machine> Work<M> {
     /// Takes the spheres of neighbouring cells that the tile may see.
     #[inline(always)]
     fn gather(&mut self, look: &Look<'_, M>, heading: Heading, range: [[M::F; 2]; 2], cells: [usize; 2]) {
-        let (m, eye) = (look.m, look.camera.eye());
-        let (ids, spheres) = look.grid.row(cells);
+        let (ids, [x, y, z, r]) = look.grid.row(cells);
         self.counts.candidates += ids.len() as u64;
-        let mut start = 0;
-        while start < ids.len() {
-            let n = (ids.len() - start).min(LANES);
-            let [x, y, z, r] = spheres;
-            let world = [m.lanes(sixteen(x, start)), m.lanes(sixteen(y, start)), m.lanes(sixteen(z, start))];
-            let radius = m.lanes(sixteen(r, start));
-            let c = three(
-                [0, 1, 2],
-                #[inline(always)]
-                |i| m.sub(world[i], m.splat(eye[i])),
-            );
-            let c = heading.along_lanes(m, c);
-            let magnitude = three(
-                c,
-                #[inline(always)]
-                |x| m.max(x, m.neg(x)),
-            );
-            let enlarged = cull::radii(m, magnitude, radius);
-            let outline = Outline::new(m, c, enlarged);
-            let mut kept = m.to_bits(outline.overlap(m, range)) & ((1 << n) - 1);
-            if kept != 0 {
-                let farthest = m.max(m.max(magnitude[0], magnitude[1]), magnitude[2]);
-                let rr = m.mul(radius, radius);
-                let [above, below, root] = look.rule.bounds(m, farthest, radius);
-                let ff = m.dot(c, c);
-                let slack = m.mul(m.add(ff, rr), m.splat(1.0 / (1u32 << 20) as f32));
-                let outside = m.to_bits(m.lt(m.add(rr, slack), ff));
-                let inside = m.to_bits(m.lt(m.add(ff, slack), rr));
-                let fields = [c[0], c[1], c[2], rr, above, below, root, outline.near, outline.lo[0], outline.lo[1], outline.hi[0], outline.hi[1]];
-                let mut rows = [[0.0; LANES]; 12];
-                for (row, field) in rows.iter_mut().zip(fields) {
-                    *row = m.to_array(field);
-                }
-                while kept != 0 {
-                    let lane = kept.trailing_zeros() as usize;
-                    kept &= kept - 1;
-                    let get = |i: usize| rows[i][lane];
-                    let side = if outside >> lane & 1 != 0 { Side::Outside } else if inside >> lane & 1 != 0 { Side::Inside } else { Side::Unknown };
-                    let list = &mut self.candidates;
-                    list.balls.push(Ball {
-                        center: [get(0), get(1), get(2)],
-                        rr: get(3),
-                        bound: bound::Bound { hit_above: get(4), miss_below: get(5), root: get(6) },
-                        side,
-                    });
-                    list.ids.push(ids[start + lane]);
-                    list.outlines.push([get(8), get(9)], [get(10), get(11)], get(7));
-                }
+        for start in (0..ids.len()).step_by(LANES) {
+            let world = [sixteen(x, start), sixteen(y, start), sixteen(z, start), sixteen(r, start)];
+            let part = &ids[start..(start + LANES).min(ids.len())];
+            self.consider(look, heading, range, part, &world);
+        }
+    }
+
+    /// Takes the large spheres that the tile may see.
+    #[inline(always)]
+    fn gather_large(&mut self, look: &Look<'_, M>, heading: Heading, range: [[M::F; 2]; 2]) {
+        self.counts.candidates += look.grid.large.len() as u64;
+        for ids in look.grid.large.chunks(LANES) {
+            let mut world = [[0.0; LANES]; 4];
+            for (lane, &id) in ids.iter().enumerate() {
+                let Sphere { center: [x, y, z], radius, .. } = look.scene.spheres()[id as usize];
+                (world[0][lane], world[1][lane], world[2][lane], world[3][lane]) = (x, y, z, radius);
             }
-            start += LANES;
+            self.consider(look, heading, range, ids, &world);
+        }
+    }
+
+    /// Takes of up to sixteen spheres, whose centres and radii are given, those that the tile may see.
+    #[inline(always)]
+    fn consider(
+        &mut self,
+        look: &Look<'_, M>,
+        heading: Heading,
+        range: [[M::F; 2]; 2],
+        ids: &[u32],
+        [x, y, z, r]: &[[f32; LANES]; 4],
+    ) {
+        let (m, eye, n) = (look.m, look.camera.eye(), ids.len());
+        let world = [m.lanes(*x), m.lanes(*y), m.lanes(*z)];
+        let radius = m.lanes(*r);
+        let c = three(
+            [0, 1, 2],
+            #[inline(always)]
+            |i| m.sub(world[i], m.splat(eye[i])),
+        );
+        let c = heading.along_lanes(m, c);
+        let magnitude = three(
+            c,
+            #[inline(always)]
+            |x| m.max(x, m.neg(x)),
+        );
+        let enlarged = cull::radii(m, magnitude, radius);
+        let outline = Outline::new(m, c, enlarged);
+        let mut kept = m.to_bits(outline.overlap(m, range)) & ((1 << n) - 1);
+        if kept != 0 {
+            let farthest = m.max(m.max(magnitude[0], magnitude[1]), magnitude[2]);
+            let rr = m.mul(radius, radius);
+            let [above, below, root] = look.rule.bounds(m, farthest, radius);
+            let ff = m.dot(c, c);
+            let slack = m.mul(m.add(ff, rr), m.splat(1.0 / (1u32 << 20) as f32));
+            let outside = m.to_bits(m.lt(m.add(rr, slack), ff));
+            let inside = m.to_bits(m.lt(m.add(ff, slack), rr));
+            let fields = [c[0], c[1], c[2], rr, above, below, root, outline.near, outline.lo[0], outline.lo[1], outline.hi[0], outline.hi[1]];
+            let mut rows = [[0.0; LANES]; 12];
+            for (row, field) in rows.iter_mut().zip(fields) {
+                *row = m.to_array(field);
+            }
+            while kept != 0 {
+                let lane = kept.trailing_zeros() as usize;
+                kept &= kept - 1;
+                let get = |i: usize| rows[i][lane];
+                let side = if outside >> lane & 1 != 0 { Side::Outside } else if inside >> lane & 1 != 0 { Side::Inside } else { Side::Unknown };
+                let list = &mut self.candidates;
+                list.balls.push(Ball {
+                    center: [get(0), get(1), get(2)],
+                    rr: get(3),
+                    bound: bound::Bound { hit_above: get(4), miss_below: get(5), root: get(6) },
+                    side,
+                });
+                list.ids.push(ids[lane]);
+                list.outlines.push([get(8), get(9)], [get(10), get(11)], get(7));
+            }
         }
     }
 }
