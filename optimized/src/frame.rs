@@ -7,8 +7,8 @@ use crate::machine::Machine;
 use crate::plan::{Packet, Plan, Sharing};
 use crate::seen::{Counts, Seen, Worker};
 use crate::settle::ALL;
-use crate::stripe::{Painter, Stripe};
-use crate::tile::{Rect, Tiles};
+use crate::stripe::{Painter, Rect, Stripe};
+use crate::tile::Tiles;
 use contract::{Camera, Image, MISS, Scene, Size};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -118,7 +118,7 @@ pub fn render<M: Machine + Send + Sync>(
     }
     let side = match plan.packet {
         Packet::Block => BLOCK,
-        Packet::Tile { side } => u32::from(side) * BLOCK,
+        Packet::Tile { side } => u32::from(side) * BLOCK / HH(),
     };
     let width = camera.size().width() as usize;
     let rows = width * side as usize;
@@ -138,7 +138,7 @@ pub fn render<M: Machine + Send + Sync>(
             while let Some(mut stripe) = next() {
                 m.within(
                     #[inline(always)]
-                    || fill_tiles(&mut tiles, side, camera, &mut stripe),
+                    || fill_tiles(&mut tiles, side * HH(), camera, &mut stripe),
                 );
             }
             return tiles.counts();
@@ -197,7 +197,11 @@ fn fill<M: Machine>(
 fn fill_tiles<M: Machine>(tiles: &mut Tiles<'_, M>, side: u32, camera: &Camera, stripe: &mut Stripe<'_>) {
     let y = [stripe.y, stripe.y + u32::try_from(stripe.ids.len() / stripe.width).expect("rows of an image")];
     let width = camera.size().width();
+    tiles.clear(Rect { x: [0, width], y }, stripe);
     for x in (0..width).step_by(side as usize) {
         tiles.trace(Rect { x: [x, (x + side).min(width)], y }, stripe);
     }
 }
+
+#[allow(non_snake_case)]
+fn HH() -> u32 { static H: std::sync::OnceLock<u32> = std::sync::OnceLock::new(); *H.get_or_init(|| std::env::var("HH").ok().map_or(1, |s| s.parse().unwrap())) }

@@ -22,6 +22,24 @@ pub struct Stripe<'a> {
     pub rgba: &'a mut [[u8; 4]],
 }
 
+/// Pixels, from and to.
+#[derive(Clone, Copy, Debug)]
+pub struct Rect {
+    /// Columns.
+    pub x: [u32; 2],
+    /// Rows.
+    pub y: [u32; 2],
+}
+
+impl Rect {
+    /// Squares of that side in a row, and rows of them.
+    #[inline(always)]
+    #[must_use]
+    pub fn squares(&self, side: u32) -> [u32; 2] {
+        [(self.x[1] - self.x[0]).div_ceil(side), (self.y[1] - self.y[0]).div_ceil(side)]
+    }
+}
+
 /// What colours need besides the sphere that is hit.
 #[derive(Clone, Copy)]
 pub struct Painter<'a, M: Machine> {
@@ -93,11 +111,17 @@ impl<'a, M: Machine> Painter<'a, M> {
         stripe.put(at, wanted, &m.to_array_i(ids), &m.to_array(answers.t), &m.to_array_i(colors));
     }
 
-    /// Makes misses of the lanes `wanted` of the block whose first pixel is (x, y).
+    /// Makes misses of all pixels of a tile. Written row by row they come into the cache as fast as they can, and most stay.
     #[inline(always)]
-    pub fn miss(&self, at: [u32; 2], wanted: u32, stripe: &mut Stripe<'_>) {
-        let colors = [self.background.cast_signed(); LANES];
-        stripe.put(at, wanted, &[MISS.cast_signed(); LANES], &[f32::INFINITY; LANES], &colors);
+    pub fn clear(&self, tile: Rect, stripe: &mut Stripe<'_>) {
+        let (x, background) = (tile.x.map(|x| x as usize), self.background.to_le_bytes());
+        for y in tile.y[0]..tile.y[1] {
+            let row = (y - stripe.y) as usize * stripe.width;
+            let pixels = row + x[0]..row + x[1];
+            stripe.ids[pixels.clone()].fill(MISS);
+            stripe.t[pixels.clone()].fill(f32::INFINITY);
+            stripe.rgba[pixels].fill(background);
+        }
     }
 }
 

@@ -12,37 +12,13 @@ use crate::plan::Plan;
 use crate::seen::Counts;
 use crate::settle::{ALL, Question};
 use crate::silhouette::{Outline, overlap};
-use crate::stripe::{Painter, Stripe};
+use crate::stripe::{Painter, Rect, Stripe};
 use contract::{Camera, Scene, Sphere};
 
 /// Candidates after which a tile's blocks are looked at before its walk goes on.
 const ROUND: usize = 256;
 /// Blocks on a side of a patch.
 const PATCH: u32 = 8;
-
-/// Pixels, from and to.
-#[derive(Clone, Copy, Debug)]
-pub struct Rect {
-    /// Columns.
-    pub x: [u32; 2],
-    /// Rows.
-    pub y: [u32; 2],
-}
-
-impl Rect {
-    /// Squares of that side in a row, and rows of them.
-    #[inline(always)]
-    fn squares(&self, side: u32) -> [u32; 2] {
-        [(self.x[1] - self.x[0]).div_ceil(side), (self.y[1] - self.y[0]).div_ceil(side)]
-    }
-
-    /// The part of it that is square number (i, j) of that side.
-    #[inline(always)]
-    fn square(&self, side: u32, [i, j]: [u32; 2]) -> Self {
-        let (x, y) = (self.x[0] + i * side, self.y[0] + j * side);
-        Self { x: [x, (x + side).min(self.x[1])], y: [y, (y + side).min(self.y[1])] }
-    }
-}
 
 /// Outlines, and how near what they belong to can be.
 #[derive(Clone, Debug, Default)]
@@ -154,6 +130,8 @@ impl<'a, M: Machine> Tiles<'a, M> {
         self.work.trace(&self.look, tile, stripe);
     }
 
+    #[allow(missing_docs)]
+    pub fn clear(&self, tile: Rect, stripe: &mut Stripe<'_>) { self.look.painter.clear(tile, stripe) }
     /// What they cost.
     #[must_use]
     pub fn counts(&self) -> Counts {
@@ -187,14 +165,6 @@ impl<M: Machine> Work<M> {
             }
             if pure {
                 return;
-            }
-        }
-        for j in 0..rows {
-            for i in 0..columns {
-                let left = ALL & !self.done[(j * columns + i) as usize];
-                if left != 0 {
-                    look.painter.miss([tile.x[0] + i * BLOCK, tile.y[0] + j * BLOCK], left, stripe);
-                }
             }
         }
     }
@@ -334,9 +304,6 @@ impl<M: Machine> Work<M> {
             chunk += LANES;
         }
         if bits == 0 && !self.touched[at] {
-            if round.all && round.pure {
-                look.painter.miss(corner, ALL, stripe);
-            }
             return round.all;
         }
         let mut dir = look.directions(tile, corner);
