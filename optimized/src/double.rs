@@ -19,7 +19,7 @@
 //!
 //! # The short way
 //!
-//! Nearly all hits are seen from outside, and not at the sphere's very rim: [`Apart`] does with b² − a q and one bound for all rays,
+//! Nearly all hits are seen from outside, and not at the sphere's very rim: [`short_ends`] does with b² − a q and one bound for all rays,
 //! which must have D > κ a r², κ = 2⁻¹². With g = F²/q,
 //!
 //! - q: 5v F² from f and the sum, v q from the difference, at most 6v g of itself. b: 4v F n. a: 3v of itself.
@@ -30,7 +30,7 @@
 //!
 //! That D > 0 holds if 20 F² v < κ r², which it does if this error is below 2⁻²⁶; else nothing is said.
 
-use crate::machine::LANES;
+use crate::machine::{LANES, Machine};
 use contract::Sphere;
 
 const V: f64 = 1.0 / (1u64 << 53) as f64;
@@ -117,79 +117,51 @@ pub fn root(eye: [f32; 3], dir: [f32; 3], center: [f32; 3], radius: f32) -> Root
     Root { miss, hit: hit && error < 0.5, t, error }
 }
 
-/// A sphere from whose surface the eye is certainly apart, on the outside.
-#[derive(Clone, Copy, Debug)]
-pub struct Apart {
-    /// f.
-    from: [f64; 3],
-    /// q.
-    power: f64,
-    /// κ r².
-    least: f64,
-    /// 1 − the relative error of t, and 1 + that.
-    ends: [f64; 2],
+/// Kernel: the relative error of t by the short way for sixteen spheres, whose centres are given relative to the eye in magnitudes;
+/// +∞ where it cannot be gone. In f32 of f32, which 1 % more covers, since ff >= 2 r² keeps q from cancelling.
+#[inline(always)]
+pub fn short_error<M: Machine>(m: M, [x, y, z]: [M::F; 3], radius: M::F) -> M::F {
+    const UNIT: f32 = 1.02 / (1u64 << 53) as f32;
+    let (ff, rr) = (m.dot([x, y, z], [x, y, z]), m.mul(radius, radius));
+    let sum = m.add(m.add(x, y), z);
+    let far = m.add(m.mul(m.splat(16.0 * UNIT), radius), m.mul(m.splat(1280.0 * UNIT), sum));
+    let error = m.mul(m.div(ff, m.sub(ff, rr)), m.div(far, radius));
+    let apart = m.and(m.le(m.add(rr, rr), ff), m.lt(error, m.splat(1.0 / (1u32 << 26) as f32)));
+    m.select(apart, error, m.splat(f32::INFINITY))
 }
 
-/// Directions of a packet's rays by axis and lane, and their squared lengths.
-#[derive(Clone, Copy, Debug)]
-pub struct Directions {
-    /// d.
-    dir: [[f64; LANES]; 3],
-    /// a.
-    square: [f64; LANES],
-}
-
-impl Directions {
-    /// Of f32 directions.
-    #[inline(always)]
-    #[must_use]
-    pub fn new(dir: &[[f32; LANES]; 3]) -> Self {
-        let mut new = Self { dir: [[0.0; LANES]; 3], square: [0.0; LANES] };
-        for lane in 0..LANES {
-            let d = [f64::from(dir[0][lane]), f64::from(dir[1][lane]), f64::from(dir[2][lane])];
-            (new.dir[0][lane], new.dir[1][lane], new.dir[2][lane]) = (d[0], d[1], d[2]);
-            new.square[lane] = dot(d, d);
-        }
-        new
-    }
-}
-
-impl Apart {
-    /// A sphere as seen from an eye; `None` if the short way cannot be gone.
-    #[inline(always)]
-    #[must_use]
-    pub fn new(eye: [f32; 3], sphere: &Sphere) -> Option<Self> {
-        const KAPPA: f64 = 1.0 / 4096.0;
-        let c = sphere.center;
+/// Lower and upper end of each ray's t on its own sphere, by the short way, rounded to f32: where these are equal, the ray
+/// certainly hits and its t is rounded so. No branches, so that this becomes vectors.
+#[inline(always)]
+#[must_use]
+#[allow(clippy::cast_possible_truncation, reason = "this is the rounding of rule 3")]
+pub fn short_ends(
+    eye: [f32; 3],
+    dir: &[[f32; LANES]; 3],
+    center: &[[f32; LANES]; 3],
+    radius: &[f32; LANES],
+    error: &[f32; LANES],
+) -> [[f32; LANES]; 2] {
+    const KAPPA: f64 = 1.0 / 4096.0;
+    let eye = [f64::from(eye[0]), f64::from(eye[1]), f64::from(eye[2])];
+    let (mut lo, mut hi) = ([0.0; LANES], [0.0; LANES]);
+    for lane in 0..LANES {
+        let d = [f64::from(dir[0][lane]), f64::from(dir[1][lane]), f64::from(dir[2][lane])];
         let f = [
-            f64::from(eye[0]) - f64::from(c[0]),
-            f64::from(eye[1]) - f64::from(c[1]),
-            f64::from(eye[2]) - f64::from(c[2]),
+            eye[0] - f64::from(center[0][lane]),
+            eye[1] - f64::from(center[1][lane]),
+            eye[2] - f64::from(center[2][lane]),
         ];
-        let (r, ff) = (f64::from(sphere.radius), dot(f, f));
-        let q = ff - r * r;
-        let error = MORE * V * ff * (16.0 * r + 1280.0 * (f[0].abs() + f[1].abs() + f[2].abs())) / (q * r);
-        let apart = Self { from: f, power: q, least: KAPPA * r * r, ends: [1.0 - error, 1.0 + error] };
-        (q > 0.0 && error < 1.0 / f64::from(1u32 << 26)).then_some(apart)
+        let (r, e) = (f64::from(radius[lane]), f64::from(error[lane]));
+        let (rr, a, b) = (r * r, dot(d, d), dot(f, d));
+        let q = dot(f, f) - rr;
+        let discriminant = b * b - a * q;
+        let t = q / (discriminant.sqrt() - b);
+        let hit = (discriminant > KAPPA * rr * a) & (b < 0.0);
+        lo[lane] = if hit { (t - t * e) as f32 } else { 0.0 };
+        hi[lane] = if hit { (t + t * e) as f32 } else { 1.0 };
     }
-
-    /// Lower and upper end of each ray's t, rounded to f32: where these are equal, the ray certainly hits and its t is rounded so. No branches, so that this becomes vectors.
-    #[inline(always)]
-    #[must_use]
-    #[allow(clippy::cast_possible_truncation, reason = "this is the rounding of rule 3")]
-    pub fn ends(&self, rays: &Directions) -> [[f32; LANES]; 2] {
-        let (mut lo, mut hi) = ([0.0; LANES], [0.0; LANES]);
-        for lane in 0..LANES {
-            let d = [rays.dir[0][lane], rays.dir[1][lane], rays.dir[2][lane]];
-            let (a, b) = (rays.square[lane], dot(self.from, d));
-            let discriminant = b * b - a * self.power;
-            let t = self.power / (discriminant.sqrt() - b);
-            let hit = (discriminant > self.least * a) & (b < 0.0);
-            lo[lane] = if hit { (t * self.ends[0]) as f32 } else { 0.0 };
-            hi[lane] = if hit { (t * self.ends[1]) as f32 } else { 1.0 };
-        }
-        [lo, hi]
-    }
+    [lo, hi]
 }
 
 #[inline(always)]

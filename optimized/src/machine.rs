@@ -26,6 +26,8 @@ pub enum Site {
     Incoherent,
     /// Does any ray of the block come within the sphere's radius?
     Sphere,
+    /// Can the sphere still win for any ray?
+    Ahead,
     /// Can a later slice still win for any ray?
     Unfinished,
     /// Does the sphere lie outside any plane of the frustum?

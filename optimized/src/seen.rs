@@ -11,7 +11,8 @@ use crate::grid::{Bounds, Grid};
 use crate::machine::{LANES, Machine, three};
 use crate::margin;
 use crate::plan::{Arithmetic, Cells, Culling, Margins, OnEvent, Packet, Plan, Voxelizer};
-use crate::settle::{ALL, Answers, Question};
+use crate::double;
+use crate::settle::{ALL, Answers, Owner, Question};
 use crate::sphere::{Form, NONE, Nearest, Prepared};
 use crate::walk::{Visitor, walk};
 use contract::{Camera, Scene, Sphere};
@@ -157,9 +158,19 @@ impl Seen {
             // A direction of zero has no major axis, and hits nothing.
             let Some(bundle) = Bundle::of_block(m, &ray) else { continue };
             let alone = self.trace_packet(m, scene, &ray, &bundle, 1 << lane, known, worker);
-            (t[lane], id[lane]) = (m.to_array(alone.t)[lane], m.to_array_i(alone.id)[lane]);
+            (t[lane], id[lane]) = (m.to_array(alone.t)[lane], m.to_array_i(alone.owners.id)[lane]);
         }
-        Answers { t: m.lanes(t), id: m.lanes_i(id) }
+        Answers::new(m, m.lanes(t), m.lanes_i(id), scene)
+    }
+
+    /// A sphere that is hit.
+    #[inline(always)]
+    fn owner<'a, M: Machine>(&self, m: M, scene: &'a [Sphere], id: i32) -> Owner<'a> {
+        let sphere = &scene[id.unsigned_abs() as usize];
+        let [x, y, z] = self.spheres[id.unsigned_abs() as usize].f;
+        let magnitude = [m.splat(x.abs()), m.splat(y.abs()), m.splat(z.abs())];
+        let error = m.to_array(double::short_error(m, magnitude, m.splat(sphere.radius)))[0];
+        Owner { id, sphere, error }
     }
 
     #[inline(always)]
@@ -184,7 +195,7 @@ impl Seen {
             Arithmetic::Rounded(form) => {
                 let rounded = Rounded { form, block, bundle, nearest: Nearest::none(m) };
                 let nearest = self.meet_all(m, bundle, rounded, known, &mut worker.counts).nearest;
-                Answers { t: nearest.t, id: nearest.id }
+                Answers::new(m, nearest.t, nearest.id, scene)
             }
             Arithmetic::Certified => {
                 let rays = Rays::new(m, bundle.slope);
@@ -197,7 +208,8 @@ impl Seen {
                 certified.possible.clear();
                 let nearest = self.meet_all(m, bundle, certified, known, &mut worker.counts).nearest;
                 let question = self.question(m, scene, block);
-                question.settle(m, &nearest, &worker.possible, wanted, &mut worker.counts)
+                let owner = |id: i32| self.owner(m, scene, id);
+                question.settle(m, &nearest, owner, &worker.possible, wanted, &mut worker.counts)
             }
         }
     }

@@ -9,10 +9,11 @@
 //! 3. Where f64 does not know which sphere or which f32, integers do ([`crate::exact`]).
 
 use crate::certain::Nearest;
-use crate::double::{self, Answer, Apart, Directions};
+use crate::double::{self, Answer};
 use crate::exact;
-use crate::machine::{LANES, Machine};
+use crate::machine::{LANES, Machine, three};
 use crate::seen::Counts;
+use crate::shade::Surface;
 use crate::sphere::NONE;
 use contract::Sphere;
 
@@ -27,20 +28,75 @@ pub struct Question<'a> {
     pub spheres: &'a [Sphere],
 }
 
-/// t and id of each ray; +∞ and [`NONE`] for a miss.
+/// t and sphere of each ray; +∞ and [`NONE`] for a miss.
 #[derive(Clone, Copy)]
 pub struct Answers<M: Machine> {
     /// Correctly rounded.
     pub t: M::F,
     /// Exact.
-    pub id: M::I,
+    pub owners: Owners<M>,
 }
 
 impl<M: Machine> Answers<M> {
-    /// All miss.
+    /// With the spheres of those ids.
     #[inline(always)]
-    pub fn none(m: M) -> Self {
-        Self { t: m.splat(f32::INFINITY), id: m.splat_i(NONE) }
+    pub fn new(m: M, t: M::F, id: M::I, spheres: &[Sphere]) -> Self {
+        let hits = m.to_bits(m.lt_i(id, m.splat_i(NONE)));
+        let owner = |id: i32| Owner { id, sphere: &spheres[id.unsigned_abs() as usize], error: f32::INFINITY };
+        Self { t, owners: Owners::of(m, id, hits, owner) }
+    }
+}
+
+/// What a ray's sphere has to give, one a lane.
+#[derive(Clone, Copy)]
+pub struct Owners<M: Machine> {
+    /// Its id.
+    pub id: M::I,
+    /// What it looks like.
+    pub surface: Surface<M>,
+    /// The relative error of t by the short way ([`double::short_error`]).
+    error: M::F,
+}
+
+/// A sphere that a ray hits, by the number that the packet knows it by.
+#[derive(Clone, Copy, Debug)]
+pub struct Owner<'a> {
+    /// Its id.
+    pub id: i32,
+    /// The sphere.
+    pub sphere: &'a Sphere,
+    /// The relative error of t by the short way ([`double::short_error`]).
+    pub error: f32,
+}
+
+impl<M: Machine> Owners<M> {
+    /// No lane has one.
+    #[inline(always)]
+    fn none(m: M) -> Self {
+        let zero = m.splat(0.0);
+        let surface = Surface { center: [zero; 3], radius: m.splat(1.0), color: [zero; 3] };
+        Self { id: m.splat_i(NONE), surface, error: m.splat(f32::INFINITY) }
+    }
+
+    /// The owners of the lanes `rest`, whose numbers are given.
+    #[inline(always)]
+    fn of<'a>(m: M, numbers: M::I, mut rest: u32, owner: impl Fn(i32) -> Owner<'a>) -> Self {
+        let (mut owners, each) = (Self::none(m), m.to_array_i(numbers));
+        while rest != 0 {
+            let number = each[rest.trailing_zeros() as usize];
+            let Owner { id, sphere, error } = owner(number);
+            let same = same(m, numbers, number);
+            let s = &mut owners.surface;
+            for i in 0..3 {
+                s.center[i] = m.select(same, m.splat(sphere.center[i]), s.center[i]);
+                s.color[i] = m.select(same, m.splat(f32::from(sphere.color[i])), s.color[i]);
+            }
+            s.radius = m.select(same, m.splat(sphere.radius), s.radius);
+            owners.error = m.select(same, m.splat(error), owners.error);
+            owners.id = m.select_i(same, m.splat_i(id), owners.id);
+            rest &= !m.to_bits(same);
+        }
+        owners
     }
 }
 
@@ -55,72 +111,62 @@ pub fn same<M: Machine>(m: M, ids: M::I, id: i32) -> M::B {
 }
 
 impl Question<'_> {
-    /// Settles the lanes whose bits are set in `wanted`; the others stay misses.
+    /// Settles the lanes whose bits are set in `wanted`; the others stay misses. `owner` knows the spheres by the numbers that
+    /// `nearest` has, `possible` gives the ids of all that any lane may hit.
     #[inline(always)]
-    pub fn settle<M: Machine>(
+    pub fn settle<'b, M: Machine>(
         &self,
         m: M,
         nearest: &Nearest<M>,
-        candidates: &[u32],
+        owner: impl Fn(i32) -> Owner<'b>,
+        possible: &[u32],
         wanted: u32,
         counts: &mut Counts,
     ) -> Answers<M> {
-        let mut answers = Answers::none(m);
         counts.lanes += u64::from(wanted.count_ones());
         let marked = m.to_bits(nearest.marked(m)) & wanted;
-        let mut unsettled = marked;
-        let mut rest = m.to_bits(m.lt_i(nearest.id, m.splat_i(NONE))) & wanted & !marked;
-        if rest != 0 {
-            let (rays, ids) = (Directions::new(&self.dir), m.to_array_i(nearest.id));
-            while rest != 0 {
-                let id = ids[rest.trailing_zeros() as usize];
-                let same = same(m, nearest.id, id);
-                if let Some(apart) = Apart::new(self.eye, &self.spheres[id.unsigned_abs() as usize]) {
-                    let [lo, hi] = apart.ends(&rays);
-                    let [lo, hi] = [m.lanes(lo), m.lanes(hi)];
-                    unsettled |= rest & m.to_bits(m.and(same, m.lt(lo, hi)));
-                    answers.t = m.select(same, lo, answers.t);
-                } else {
-                    unsettled |= rest & m.to_bits(same);
-                }
-                answers.id = m.select_i(same, m.splat_i(id), answers.id);
-                rest &= !m.to_bits(same);
-            }
-        }
-        if unsettled != 0 || wanted != ALL {
-            self.finish(m, nearest, marked, unsettled, wanted, candidates, &mut answers, counts);
+        let hit = m.lt_i(nearest.id, m.splat_i(NONE));
+        let hits = m.to_bits(hit) & wanted & !marked;
+        let owners = Owners::of(m, nearest.id, hits, owner);
+        let Surface { center, radius, .. } = owners.surface;
+        let center = three(
+            center,
+            #[inline(always)]
+            |x| m.to_array(x),
+        );
+        let [lo, hi] =
+            double::short_ends(self.eye, &self.dir, &center, &m.to_array(radius), &m.to_array(owners.error));
+        let [lo, hi] = [m.lanes(lo), m.lanes(hi)];
+        let unsettled = m.to_bits(m.lt(lo, hi)) & hits;
+        let t = m.select(m.lt_i(owners.id, m.splat_i(NONE)), lo, m.splat(f32::INFINITY));
+        let mut answers = Answers { t, owners };
+        if unsettled | marked != 0 {
+            self.finish(m, marked, unsettled, possible, &mut answers, counts);
         }
         answers
     }
 
-    /// Settles what is left, lane by lane, and makes misses of what is not wanted.
+    /// Settles what is left, lane by lane.
     #[inline(never)]
-    #[allow(clippy::too_many_arguments, reason = "the state of `settle`")]
     fn finish<M: Machine>(
         &self,
         m: M,
-        nearest: &Nearest<M>,
         marked: u32,
         unsettled: u32,
-        wanted: u32,
-        candidates: &[u32],
+        possible: &[u32],
         answers: &mut Answers<M>,
         counts: &mut Counts,
     ) {
-        let (mut t, mut id) = (m.to_array(answers.t), m.to_array_i(answers.id));
-        let nearest = m.to_array_i(nearest.id);
+        let (mut t, mut id) = (m.to_array(answers.t), m.to_array_i(answers.owners.id));
         for lane in 0..LANES {
-            let has = |bits: u32| bits >> lane & 1 != 0;
-            if has(marked) {
+            if marked >> lane & 1 != 0 {
                 counts.asked_f64 += 1;
-                (t[lane], id[lane]) = self.by_f64(lane, candidates, counts);
-            } else if has(unsettled) {
-                t[lane] = self.root_of(lane, nearest[lane].unsigned_abs(), counts);
-            } else if !has(wanted) {
-                (t[lane], id[lane]) = (f32::INFINITY, NONE);
+                (t[lane], id[lane]) = self.by_f64(lane, possible, counts);
+            } else if unsettled >> lane & 1 != 0 {
+                t[lane] = self.root_of(lane, id[lane].unsigned_abs(), counts);
             }
         }
-        *answers = Answers { t: m.lanes(t), id: m.lanes_i(id) };
+        *answers = Answers::new(m, m.lanes(t), m.lanes_i(id), self.spheres);
     }
 
     /// The t of a sphere that is certainly hit.

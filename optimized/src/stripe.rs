@@ -2,10 +2,10 @@
 
 use crate::camera::{BLOCK, spread};
 use crate::machine::{LANES, Machine, three};
-use crate::settle::{ALL, Answers, same};
-use crate::shade::{Surface, shade};
+use crate::settle::{ALL, Answers};
+use crate::shade::shade;
 use crate::sphere::NONE;
-use contract::{Camera, MISS, Scene, Sphere};
+use contract::{Camera, MISS, Scene};
 
 /// Rows of an image under work: ids, t and colours.
 #[derive(Debug)]
@@ -42,56 +42,22 @@ impl Rect {
 
 /// What colours need besides the sphere that is hit.
 #[derive(Clone, Copy)]
-pub struct Painter<'a, M: Machine> {
-    spheres: &'a [Sphere],
+pub struct Painter<M: Machine> {
     eye: [M::F; 3],
     light: [M::F; 3],
     background: u32,
 }
 
-impl<'a, M: Machine> Painter<'a, M> {
+impl<M: Machine> Painter<M> {
     /// For a scene and a camera.
     #[inline(always)]
-    pub fn new(m: M, scene: &'a Scene, camera: &Camera) -> Self {
+    pub fn new(m: M, scene: &Scene, camera: &Camera) -> Self {
         let [r, g, b] = scene.background();
         Self {
-            spheres: scene.spheres(),
             eye: spread(m, camera.eye()),
             light: spread(m, scene.light()),
             background: u32::from_le_bytes([r, g, b, 255]),
         }
-    }
-
-    /// Colours of the rays of a packet, four bytes each; the background's for those that miss.
-    #[inline(always)]
-    fn colors(&self, m: M, dir: [M::F; 3], answers: &Answers<M>) -> M::I {
-        let mut colors = m.splat_i(self.background.cast_signed());
-        let ids = m.to_array_i(answers.id);
-        let mut rest = m.to_bits(m.lt_i(answers.id, m.splat_i(NONE)));
-        while rest != 0 {
-            let id = ids[rest.trailing_zeros() as usize];
-            let sphere = &self.spheres[id.unsigned_abs() as usize];
-            let color = three(
-                sphere.color,
-                #[inline(always)]
-                |channel| m.splat(f32::from(channel)),
-            );
-            let surface =
-                Surface { center: spread(m, sphere.center), radius: m.splat(sphere.radius), color };
-            let [r, g, b] = three(
-                shade(m, self.eye, dir, self.light, answers.t, &surface),
-                #[inline(always)]
-                |channel| m.to_array_i(channel),
-            );
-            let mut packed = [0; LANES];
-            for lane in 0..LANES {
-                packed[lane] = r[lane] | g[lane] << 8 | b[lane] << 16 | 255 << 24;
-            }
-            let same = same(m, answers.id, id);
-            colors = m.select_i(same, m.lanes_i(packed), colors);
-            rest &= !m.to_bits(same);
-        }
-        colors
     }
 
     /// Writes the lanes `wanted` of the block whose first pixel is (x, y).
@@ -105,9 +71,18 @@ impl<'a, M: Machine> Painter<'a, M> {
         wanted: u32,
         stripe: &mut Stripe<'_>,
     ) {
-        let colors = self.colors(m, dir, answers);
-        let hit = m.lt_i(answers.id, m.splat_i(NONE));
-        let ids = m.select_i(hit, answers.id, m.splat_i(MISS.cast_signed()));
+        let [r, g, b] = three(
+            shade(m, self.eye, dir, self.light, answers.t, &answers.owners.surface),
+            #[inline(always)]
+            |channel| m.to_array_i(channel),
+        );
+        let mut colors = [0; LANES];
+        for lane in 0..LANES {
+            colors[lane] = r[lane] | g[lane] << 8 | b[lane] << 16 | 255 << 24;
+        }
+        let hit = m.lt_i(answers.owners.id, m.splat_i(NONE));
+        let colors = m.select_i(hit, m.lanes_i(colors), m.splat_i(self.background.cast_signed()));
+        let ids = m.select_i(hit, answers.owners.id, m.splat_i(MISS.cast_signed()));
         stripe.put(at, wanted, &m.to_array_i(ids), &m.to_array(answers.t), &m.to_array_i(colors));
     }
 

@@ -5,12 +5,13 @@ use crate::bound::{self, Rule};
 use crate::camera::{BLOCK, CameraLanes, spread};
 use crate::certain::{Ball, Nearest, Rays, Side};
 use crate::cull;
+use crate::double::short_error;
 use crate::frustum::{BEYOND, Frustum, Heading, Slices};
 use crate::grid::Grid;
 use crate::machine::{LANES, Machine, Site, three};
 use crate::plan::Plan;
 use crate::seen::Counts;
-use crate::settle::{ALL, Question};
+use crate::settle::{ALL, Owner, Question};
 use crate::silhouette::{Outline, overlap};
 use crate::stripe::{Painter, Rect, Stripe};
 use contract::{Camera, Scene, Sphere};
@@ -33,6 +34,8 @@ struct Outlines {
 struct Candidates {
     balls: Vec<Ball>,
     ids: Vec<u32>,
+    /// Relative errors of t by the short way.
+    errors: Vec<f32>,
     outlines: Outlines,
 }
 
@@ -59,7 +62,7 @@ struct Look<'a, M: Machine> {
     camera: &'a Camera,
     grid: &'a Grid,
     lanes: CameraLanes<M>,
-    painter: Painter<'a, M>,
+    painter: Painter<M>,
     rule: Rule,
     /// More than the rounding of any direction, in any component.
     slack: f32,
@@ -337,8 +340,11 @@ impl<M: Machine> Work<M> {
                 let index = few.index[i] as usize;
                 let ball = &self.candidates.balls[index];
                 let ahead = m.le(m.splat(few.outlines.near[i]), nearest.hi);
+                if !m.any(ahead, Site::Ahead) {
+                    continue;
+                }
                 if let Some(found) = rays.find(m, ball, ahead) {
-                    nearest = nearest.meet(m, &found, self.candidates.ids[index].cast_signed());
+                    nearest = nearest.meet(m, &found, index as i32);
                 }
             }
             chunk += LANES;
@@ -365,7 +371,13 @@ impl<M: Machine> Work<M> {
             |d| m.to_array(d),
         );
         let question = Question { eye: look.camera.eye(), dir: dirs, spheres: look.scene.spheres() };
-        let answers = question.settle(m, &nearest, &self.possible, wanted, &mut self.counts);
+        let (candidates, spheres) = (&self.candidates, look.scene.spheres());
+        let owner = |number: i32| {
+            let number = number.unsigned_abs() as usize;
+            let id = candidates.ids[number];
+            Owner { id: id.cast_signed(), sphere: &spheres[id as usize], error: candidates.errors[number] }
+        };
+        let answers = question.settle(m, &nearest, owner, &self.possible, wanted, &mut self.counts);
         look.painter.write(m, dir, &answers, corner, wanted, stripe);
         true
     }
@@ -546,8 +558,8 @@ impl<M: Machine> Work<M> {
             let slack = m.mul(m.add(ff, rr), m.splat(1.0 / (1u32 << 20) as f32));
             let outside = m.to_bits(m.lt(m.add(rr, slack), ff));
             let inside = m.to_bits(m.lt(m.add(ff, slack), rr));
-            let fields = [c[0], c[1], c[2], rr, above, below, root, outline.near, outline.lo[0], outline.lo[1], outline.hi[0], outline.hi[1]];
-            let mut rows = [[0.0; LANES]; 12];
+            let fields = [c[0], c[1], c[2], rr, above, below, root, outline.near, outline.lo[0], outline.lo[1], outline.hi[0], outline.hi[1], short_error(m, magnitude, radius)];
+            let mut rows = [[0.0; LANES]; 13];
             for (row, field) in rows.iter_mut().zip(fields) {
                 *row = m.to_array(field);
             }
@@ -564,6 +576,7 @@ impl<M: Machine> Work<M> {
                     side,
                 });
                 list.ids.push(ids[lane]);
+                list.errors.push(get(12));
                 list.outlines.push([get(8), get(9)], [get(10), get(11)], get(7));
             }
         }
@@ -624,6 +637,7 @@ impl Candidates {
     fn clear(&mut self) {
         self.balls.clear();
         self.ids.clear();
+        self.errors.clear();
         self.outlines.truncate(0);
     }
 
