@@ -209,7 +209,8 @@ impl Seen {
                 let nearest = self.meet_all(m, bundle, certified, known, &mut worker.counts).nearest;
                 let question = self.question(m, scene, block);
                 let owner = |id: i32| self.owner(m, scene, id);
-                question.settle(m, &nearest, owner, &worker.possible, wanted, &mut worker.counts)
+                let marked = m.to_bits(nearest.marked(m)) & wanted;
+                question.settle(m, nearest.id, marked, owner, &worker.possible, wanted, &mut worker.counts)
             }
         }
     }

@@ -8,7 +8,6 @@
 //!    in a slice that the walk did not need to visit, hence behind the nearest certain hit.)
 //! 3. Where f64 does not know which sphere or which f32, integers do ([`crate::exact`]).
 
-use crate::certain::Nearest;
 use crate::double::{self, Answer};
 use crate::exact;
 use crate::machine::{LANES, Machine, three};
@@ -111,23 +110,24 @@ pub fn same<M: Machine>(m: M, ids: M::I, id: i32) -> M::B {
 }
 
 impl Question<'_> {
-    /// Settles the lanes whose bits are set in `wanted`; the others stay misses. `owner` knows the spheres by the numbers that
-    /// `nearest` has, `possible` gives the ids of all that any lane may hit.
+    /// Settles the lanes whose bits are set in `wanted`; the others stay misses. Of the lanes that are not `marked` the sphere is
+    /// known, or that there is none, by a number that `owner` understands; `possible` are the ids of all spheres that a marked lane may hit.
     #[inline(always)]
+    #[allow(clippy::too_many_arguments, reason = "all of it differs from packet to packet")]
     pub fn settle<'b, M: Machine>(
         &self,
         m: M,
-        nearest: &Nearest<M>,
+        numbers: M::I,
+        marked: u32,
         owner: impl Fn(i32) -> Owner<'b>,
         possible: &[u32],
         wanted: u32,
         counts: &mut Counts,
     ) -> Answers<M> {
         counts.lanes += u64::from(wanted.count_ones());
-        let marked = m.to_bits(nearest.marked(m)) & wanted;
-        let hit = m.lt_i(nearest.id, m.splat_i(NONE));
+        let hit = m.lt_i(numbers, m.splat_i(NONE));
         let hits = m.to_bits(hit) & wanted & !marked;
-        let owners = Owners::of(m, nearest.id, hits, owner);
+        let owners = Owners::of(m, numbers, hits, owner);
         let Surface { center, radius, .. } = owners.surface;
         let center = three(
             center,

@@ -89,6 +89,7 @@ struct Work<M: Machine> {
     /// Lanes that are written.
     done: Vec<u32>,
     possible: Vec<u32>,
+    finished: Vec<Finished<M>>,
 }
 
 impl<'a, M: Machine> Tiles<'a, M> {
@@ -123,6 +124,7 @@ impl<'a, M: Machine> Tiles<'a, M> {
             closed: Vec::new(),
             done: Vec::new(),
             possible: Vec::new(),
+            finished: Vec::new(),
         };
         Self { look, work }
     }
@@ -274,9 +276,10 @@ impl<M: Machine> Work<M> {
                     }
                     let corner = [tile.x[0] + column * BLOCK, tile.y[0] + row * BLOCK];
                     let few = &few[(column / PATCH) as usize];
-                    self.closed[at] = self.block(look, round, few, tile, corner, at, stripe);
+                    self.closed[at] = self.block(look, round, few, tile, corner, at);
                     open += usize::from(!self.closed[at]);
                 }
+                self.finish(look, tile, stripe);
             }
         }
         self.few = few;
@@ -293,7 +296,6 @@ impl<M: Machine> Work<M> {
         tile: Rect,
         corner: [u32; 2],
         at: usize,
-        stripe: &mut Stripe<'_>,
     ) -> bool {
         let (m, heading) = (look.m, round.heading);
         let range = self.blocks.get(m, at);
@@ -361,26 +363,53 @@ impl<M: Machine> Work<M> {
             (self.nearest[at], self.touched[at]) = (nearest, true);
             return false;
         }
-        if m.to_bits(nearest.marked(m)) & wanted != 0 {
-            self.candidates.overlapping(m, range, &mut self.possible);
-        }
         self.done[at] |= wanted;
-        let dirs = three(
-            dir,
-            #[inline(always)]
-            |d| m.to_array(d),
-        );
-        let question = Question { eye: look.camera.eye(), dir: dirs, spheres: look.scene.spheres() };
+        let marked = m.to_bits(nearest.marked(m)) & wanted;
+        self.finished.push(Finished { at, corner, wanted, marked, id: nearest.id });
+        true
+    }
+
+    /// Answers and colours of the blocks that are finished. Done for many at once, since it has hardly a branch, and the processor
+    /// can do one block's work while it waits for another's.
+    #[inline(always)]
+    fn finish(&mut self, look: &Look<'_, M>, tile: Rect, stripe: &mut Stripe<'_>) {
+        let m = look.m;
         let (candidates, spheres) = (&self.candidates, look.scene.spheres());
         let owner = |number: i32| {
             let number = number.unsigned_abs() as usize;
             let id = candidates.ids[number];
             Owner { id: id.cast_signed(), sphere: &spheres[id as usize], error: candidates.errors[number] }
         };
-        let answers = question.settle(m, &nearest, owner, &self.possible, wanted, &mut self.counts);
-        look.painter.write(m, dir, &answers, corner, wanted, stripe);
-        true
+        for block in &self.finished {
+            if block.marked != 0 {
+                candidates.overlapping(m, self.blocks.get(m, block.at), &mut self.possible);
+            }
+            let dir = look.directions(tile, block.corner);
+            let dirs = three(
+                dir,
+                #[inline(always)]
+                |d| m.to_array(d),
+            );
+            let question = Question { eye: look.camera.eye(), dir: dirs, spheres };
+            let (wanted, marked) = (block.wanted, block.marked);
+            let answers = question.settle(m, block.id, marked, owner, &self.possible, wanted, &mut self.counts);
+            look.painter.write(m, dir, &answers, block.corner, wanted, stripe);
+        }
+        self.finished.clear();
     }
+}
+
+/// A block of which it is known which candidates its rays hit.
+#[derive(Clone, Copy)]
+struct Finished<M: Machine> {
+    at: usize,
+    corner: [u32; 2],
+    /// Lanes that count.
+    wanted: u32,
+    /// Of these, those that are not certain.
+    marked: u32,
+    /// Numbers of candidates.
+    id: M::I,
 }
 
 /// What a tile's blocks are shown.
