@@ -45,6 +45,8 @@ struct Few {
     outlines: Outlines,
     /// Which candidates.
     index: Vec<u32>,
+    /// How near they can be, and which.
+    order: Vec<i64>,
     /// Of each sixteen, the nearest of these and all later ones.
     nearest: Vec<f32>,
 }
@@ -343,7 +345,7 @@ impl<M: Machine> Work<M> {
                 let ball = &self.candidates.balls[index];
                 let ahead = m.le(m.splat(few.outlines.near[i]), nearest.hi);
                 if !m.any(ahead, Site::Ahead) {
-                    continue;
+                    break;
                 }
                 if let Some(found) = rays.find(m, ball, ahead) {
                     nearest = nearest.meet(m, &found, index as i32);
@@ -694,6 +696,7 @@ impl Few {
     #[inline(always)]
     fn take<M: Machine>(&mut self, m: M, all: &Candidates, from: usize, range: [[M::F; 2]; 2]) {
         self.index.clear();
+        self.order.clear();
         self.outlines.truncate(0);
         self.nearest.clear();
         let o = &all.outlines;
@@ -705,9 +708,17 @@ impl Few {
             while bits != 0 {
                 let i = chunk + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
-                self.index.push(i as u32);
-                self.outlines.push([o.lo[0][i], o.lo[1][i]], [o.hi[0][i], o.hi[1][i]], o.near[i]);
+                // Floats in their order, as integers.
+                let near = o.near[i].to_bits().cast_signed();
+                let near = near ^ ((near >> 31) & i32::MAX);
+                self.order.push(i64::from(near) << 32 | i as i64);
             }
+        }
+        self.order.sort_unstable();
+        for &key in &self.order {
+            let i = (key & 0xffff_ffff) as usize;
+            self.index.push(i as u32);
+            self.outlines.push([o.lo[0][i], o.lo[1][i]], [o.hi[0][i], o.hi[1][i]], o.near[i]);
         }
         self.outlines.pad();
         let mut least = f32::INFINITY;
