@@ -1,0 +1,239 @@
+//! One frame of one scene: the exact picture is made, every contestant's is checked against it, and those that pass are
+//! timed in turn.
+//!
+//! Embree can be asked in many ways, most of them slow. All are checked and run a heat; those that took more than
+//! [`BEHIND`] times as long as the best of their kind there are timed no further, and their heat is what is told of them.
+
+use super::check::check;
+use super::contestant::{Contestant, Kind};
+use super::data::{Row, SceneBench, Truth};
+use super::ours::Ours;
+use super::outsiders::Field;
+use super::rounds::{Effort, Taken, rounds, turn};
+use crate::judge::narrowed::{NarrowedError, narrowed};
+use crate::subject::{NamedPlan, SubjectError};
+use crate::verdict::Verdict;
+use contract::{Camera, Image, MISS, Scene};
+use optimized::Level;
+use reference::{Arithmetic, RenderError, Tracer};
+use thiserror::Error;
+
+/// See the module's text.
+pub const BEHIND: f64 = 1.25;
+/// Scenes of more spheres get their exact picture by narrowed loops.
+pub const NARROWED_FROM: usize = 20_000;
+
+/// What is timed on every scene.
+#[derive(Debug)]
+pub struct Setting<'a> {
+    /// The plan of the tracer under test.
+    pub plan: NamedPlan,
+    /// Its level.
+    pub level: Level,
+    /// Threads of every contestant.
+    pub threads: usize,
+    /// The outsiders, with as many threads.
+    pub field: &'a Field,
+    /// How long.
+    pub effort: Effort,
+    /// Of random rays.
+    pub seed: u64,
+}
+
+/// A frame to be timed.
+#[derive(Clone, Copy, Debug)]
+pub struct Input<'a> {
+    /// The scene's name.
+    pub name: &'a str,
+    /// The frame's number.
+    pub frame: usize,
+    /// Its spheres.
+    pub scene: &'a Scene,
+    /// The camera.
+    pub camera: &'a Camera,
+}
+
+/// Told what is being done: a word for it and how many steps it has; what it gives is called once a step.
+pub type Progress<'a> = &'a dyn Fn(&str, u32) -> Box<dyn Fn() + Sync>;
+
+/// Why a scene was not timed at all.
+#[derive(Debug, Error)]
+pub enum BenchError {
+    /// There is no truth.
+    #[error("no truth to check by: {0}")]
+    Truth(#[from] RenderError),
+    /// There is none either.
+    #[error("no truth to check by: {0}")]
+    Narrowed(#[from] NarrowedError),
+    /// A contestant failed that had passed, or could not begin.
+    #[error("a contestant failed: {0}")]
+    Contestant(SubjectError),
+}
+
+/// Checks and times.
+///
+/// # Errors
+/// [`BenchError`] if there is no truth, or a contestant gives up in the middle.
+pub fn bench(
+    input: &Input<'_>,
+    setting: &Setting<'_>,
+    progress: Progress<'_>,
+) -> Result<SceneBench, BenchError> {
+    let Input { scene, camera, .. } = *input;
+    let (image, truth) = truth(scene, camera, setting.seed, progress)?;
+    let entrants = entrants(input, setting, &image).map_err(BenchError::Contestant)?;
+    let tick = progress("check", u32::try_from(entrants.len()).unwrap_or(u32::MAX));
+    let (mut rows, mut passed, mut places) = (Vec::new(), Vec::new(), Vec::new());
+    for mut entrant in entrants {
+        let row = checked(entrant.as_mut(), input, &image);
+        if row.remark.is_none() {
+            places.push(rows.len());
+            passed.push(entrant);
+        }
+        rows.push(row);
+        tick();
+    }
+    let limit = setting.effort.rounds.unwrap_or(super::rounds::LEAST);
+    heats(&mut passed, &mut places, &mut rows, input)?;
+    let tick = progress("rounds", u32::try_from(limit).unwrap_or(u32::MAX));
+    let mut measured = 0;
+    if !passed.is_empty() {
+        let outcome = rounds(&mut passed, scene, camera, setting.effort, &*tick);
+        let (taken, count) = outcome.map_err(BenchError::Contestant)?;
+        measured = count;
+        for (place, taken) in places.into_iter().zip(&taken) {
+            time(&mut rows[place], taken, camera);
+        }
+    }
+    Ok(told(input, setting, truth, measured, rows))
+}
+
+/// The exact picture, and how it came about.
+fn truth(
+    scene: &Scene,
+    camera: &Camera,
+    seed: u64,
+    progress: Progress<'_>,
+) -> Result<(Image, Truth), BenchError> {
+    let pixels = camera.size().pixels();
+    let (image, how, by_full_loop) = if scene.spheres().len() <= NARROWED_FROM {
+        let tick = progress("exact", camera.size().height());
+        let image = Tracer::new(Arithmetic::Exact).render_with(scene, camera, &*tick)?.image;
+        (image, "every pixel by the exact loop over all spheres".to_owned(), pixels)
+    } else {
+        let tick = progress("exact, narrowed", 1);
+        let truth = narrowed(scene, camera, seed)?;
+        tick();
+        let how = format!(
+            "every pixel by the exact loop over the spheres that can be seen in its tile, {} of them over all spheres",
+            truth.sampled
+        );
+        (truth.image, how, truth.sampled)
+    };
+    let hits = image.ids.iter().filter(|&&id| id != MISS).count();
+    Ok((image, Truth { how, rays: pixels, by_full_loop, hits }))
+}
+
+/// All contestants, the tracer under test first.
+fn entrants(
+    input: &Input<'_>,
+    setting: &Setting<'_>,
+    truth: &Image,
+) -> Result<Vec<Box<dyn Contestant>>, SubjectError> {
+    let Setting { plan, level, threads, field, .. } = *setting;
+    let subject = Ours::new(plan, input.scene, level, threads)?;
+    let limit = Ours::clairvoyant(plan, input.scene, level, threads, truth)?;
+    let mut entrants: Vec<Box<dyn Contestant>> = vec![Box::new(subject), Box::new(limit)];
+    entrants.extend(field.contestants(input.camera));
+    Ok(entrants)
+}
+
+/// A contestant's row after its picture was checked. It has a remark if it may not be timed.
+pub(super) fn checked(entrant: &mut dyn Contestant, input: &Input<'_>, truth: &Image) -> Row {
+    let (kind, oath) = (entrant.kind(), entrant.oath());
+    let mut row = Row {
+        name: entrant.name().into(),
+        kind,
+        description: entrant.description(),
+        verdict: Verdict::NotJudged,
+        differing: 0,
+        wrong: 0,
+        not_stated: 0,
+        first_wrong: None,
+        timing: None,
+        mega_rays_per_second: None,
+        remark: None,
+    };
+    match entrant.frame(input.scene, input.camera) {
+        Err(error) => row.remark = Some(format!("Gave no picture: {error}. Not timed.")),
+        Ok(frame) => {
+            let checked = check(input.scene, input.camera, truth, frame.layers, oath);
+            row.verdict = checked.verdict();
+            (row.differing, row.wrong, row.not_stated) =
+                (checked.differing, checked.wrong, checked.not_stated);
+            row.first_wrong = checked.first;
+            if !checked.passes(kind, input.camera.size().pixels()) {
+                let [x, y] = checked.first.unwrap_or_default();
+                row.remark =
+                    Some(format!("{} pixels are wrong, first ({x}, {y}). Not timed.", checked.wrong));
+            }
+        }
+    }
+    row
+}
+
+/// Leaves out those of Embree's ways that are far behind, with the times of their heat.
+fn heats(
+    passed: &mut Vec<Box<dyn Contestant>>,
+    places: &mut Vec<usize>,
+    rows: &mut [Row],
+    input: &Input<'_>,
+) -> Result<(), BenchError> {
+    let mut heats = vec![Taken::default(); passed.len()];
+    for (entrant, taken) in passed.iter_mut().zip(&mut heats).filter(|(e, _)| e.kind() == Kind::Embree) {
+        turn(entrant.as_mut(), input.scene, input.camera, taken).map_err(BenchError::Contestant)?;
+    }
+    let best = heats.iter().map(Taken::least).fold(f64::INFINITY, f64::min);
+    for k in (0..passed.len()).rev() {
+        if passed[k].kind() == Kind::Embree && heats[k].least() > BEHIND * best {
+            time(&mut rows[places[k]], &heats[k], input.camera);
+            rows[places[k]].remark = Some("Far behind in its heat, and timed no further.".into());
+            passed.remove(k);
+            places.remove(k);
+        }
+    }
+    Ok(())
+}
+
+fn time(row: &mut Row, taken: &Taken, camera: &Camera) {
+    row.timing = taken.timing();
+    row.mega_rays_per_second = row.seconds().map(|seconds| camera.size().pixels() as f64 / seconds / 1e6);
+}
+
+fn told(input: &Input<'_>, setting: &Setting<'_>, truth: Truth, rounds: usize, rows: Vec<Row>) -> SceneBench {
+    let mut bench = SceneBench {
+        name: input.name.into(),
+        spheres: input.scene.spheres().len(),
+        frame: input.frame,
+        width: input.camera.size().width(),
+        height: input.camera.size().height(),
+        threads: setting.threads,
+        truth,
+        rounds,
+        ratio_to_embree: None,
+        embree_best: None,
+        ratio_to_limit: None,
+        contestants: rows,
+    };
+    let seconds = |kind| {
+        let timed = bench.rows(kind).filter_map(|row| Some((row.seconds()?, row.name.clone())));
+        timed.min_by(|x, y| x.0.total_cmp(&y.0))
+    };
+    let [subject, limit, embree] = [Kind::Subject, Kind::Limit, Kind::Embree].map(seconds);
+    if let Some((subject, _)) = subject {
+        bench.ratio_to_limit = limit.map(|(limit, _)| subject / limit);
+        bench.ratio_to_embree = embree.as_ref().map(|(embree, _)| embree / subject);
+    }
+    bench.embree_best = embree.map(|(_, name)| name);
+    bench
+}
