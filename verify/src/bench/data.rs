@@ -1,6 +1,7 @@
 //! What a benchmark found out, as plain data: the one source of the table, the page and the JSON file, whose shape these
 //! types are. A changed field means a new [`SCHEMA_VERSION`]. Times are in seconds; what was not measured is null.
 
+use super::baseline::Step;
 use super::contestant::Kind;
 use super::rounds::Timing;
 use super::spread::geometric_mean;
@@ -34,6 +35,25 @@ pub struct Bench {
     pub scenes: Vec<SceneBench>,
     /// How times grow; empty if it was not asked.
     pub curves: Vec<Curve>,
+    /// The run against an earlier one; none if none was named.
+    pub baseline: Option<Held>,
+}
+
+/// A run held against an earlier one.
+#[derive(Clone, Debug, Serialize)]
+pub struct Held {
+    /// The part by which a scene may be slower.
+    pub tolerance: f64,
+    /// Scene by scene.
+    pub steps: Vec<Step>,
+}
+
+impl Held {
+    /// Whether a scene is slower by more.
+    #[must_use]
+    pub fn is_slower(&self) -> bool {
+        self.steps.iter().any(|step| step.is_slower(self.tolerance))
+    }
 }
 
 /// Over all scenes of a run.

@@ -18,13 +18,18 @@ pub(super) struct Entrant {
     t: Vec<f32>,
 }
 
+/// What the contestant of a way is called.
+pub(super) fn name(mode: Mode) -> String {
+    format!("embree-{mode}")
+}
+
 impl Entrant {
     /// Lays out its rays.
     #[must_use]
     pub(super) fn new(device: &Device, mode: Mode, camera: &Camera, threads: usize) -> Self {
         let pixels = camera.size().pixels();
         Self {
-            name: format!("embree-{mode}"),
+            name: name(mode),
             description: format!(
                 "Embree {} at {}: ids and t, its tree built again in every frame; directions laid out before",
                 device.version(),

@@ -47,6 +47,9 @@ pub struct Field {
     threads: usize,
     #[cfg(feature = "embree")]
     embree: Option<crate::embree::Device>,
+    /// Its ways that are asked.
+    #[cfg(feature = "embree")]
+    modes: Vec<crate::embree::Mode>,
     #[cfg(feature = "peers")]
     peers: Vec<Outsider>,
 }
@@ -77,6 +80,7 @@ impl Field {
         let isa = Isa::ALL.into_iter().find(|isa| isa.name() == name);
         let isa = isa.ok_or_else(|| format!("It has no code for {level}."))?;
         let device = Device::new(isa, self.threads);
+        self.modes = crate::embree::Mode::all();
         self.embree = Some(device.map_err(|error| format!("It is there and cannot be used: {error}."))?);
         Ok(())
     }
@@ -99,6 +103,19 @@ impl Field {
         Err("This program was built without it; the feature `peers` builds it in.".into())
     }
 
+    /// Asks no more than these of Embree's ways, given by the names of their contestants. Of none of them all stay.
+    pub fn narrow(&mut self, names: &[&str]) {
+        #[cfg(feature = "embree")]
+        {
+            let kept = |mode: &&crate::embree::Mode| names.contains(&super::embree::name(**mode).as_str());
+            let modes: Vec<_> = self.modes.iter().filter(kept).copied().collect();
+            if !modes.is_empty() {
+                self.modes = modes;
+            }
+        }
+        _ = names;
+    }
+
     /// Names and versions, for the report.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
@@ -118,8 +135,8 @@ impl Field {
         let mut contestants: Vec<Box<dyn Contestant>> = Vec::new();
         #[cfg(feature = "embree")]
         if let Some(device) = &self.embree {
-            for mode in crate::embree::Mode::all() {
-                let entrant = super::embree::Entrant::new(device, mode, camera, self.threads);
+            for mode in &self.modes {
+                let entrant = super::embree::Entrant::new(device, *mode, camera, self.threads);
                 contestants.push(Box::new(entrant));
             }
         }

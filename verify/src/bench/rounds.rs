@@ -1,7 +1,8 @@
 //! Times taken in turn: in each round every contestant traces a few frames, so that whatever else the machine does falls on
 //! all of them alike.
 //!
-//! A turn begins with a frame that is not counted, since in an animation the frame before is one's own and not another's.
+//! A turn begins with a frame that is not counted, since in an animation the frame before is one's own and not another's;
+//! unless frames take longer than [`LONG`], which no cache outlasts.
 //! Each round begins with another contestant. What is kept is every counted frame's time, in all and for building.
 
 use super::contestant::Contestant;
@@ -27,6 +28,8 @@ pub const MOST: usize = 200;
 /// A turn counts frames until they have taken so long together, at most [`FRAMES`].
 const TURN: Duration = Duration::from_millis(20);
 const FRAMES: usize = 16;
+/// See the module's text; in seconds.
+pub const LONG: f64 = 0.5;
 
 /// The times of one contestant.
 #[derive(Clone, Debug, Default)]
@@ -109,7 +112,9 @@ pub(super) fn turn(
     camera: &Camera,
     taken: &mut Taken,
 ) -> Result<(), SubjectError> {
-    one(contestant, scene, camera)?;
+    if !taken.frames.iter().any(|[_, total]| *total > LONG) {
+        one(contestant, scene, camera)?;
+    }
     let start = Instant::now();
     for _ in 0..FRAMES {
         taken.frames.push(one(contestant, scene, camera)?);

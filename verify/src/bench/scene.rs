@@ -1,8 +1,9 @@
 //! One frame of one scene: the exact picture is made, every contestant's is checked against it, and those that pass are
 //! timed in turn.
 //!
-//! Embree can be asked in many ways, most of them slow. All are checked and run a heat; those that took more than
-//! [`BEHIND`] times as long as the best of their kind there are timed no further, and their heat is what is told of them.
+//! Embree can be asked in many ways. All are checked and run a heat; only the best [`KEPT`] there are timed in rounds, and of
+//! the others their heat is told. Who is left out gives back its memory at once: a tree over ten million spheres takes more
+//! than a gigabyte.
 
 use super::check::check;
 use super::contestant::{Contestant, Kind};
@@ -19,9 +20,9 @@ use reference::{Arithmetic, RenderError, Tracer};
 use thiserror::Error;
 
 /// See the module's text.
-pub const BEHIND: f64 = 1.25;
-/// Scenes of more spheres get their exact picture by narrowed loops.
-pub const NARROWED_FROM: usize = 20_000;
+pub const KEPT: usize = 3;
+/// Where spheres times pixels are more, the exact picture is made by narrowed loops.
+pub const NARROWED_FROM: u128 = 10_000_000_000;
 
 /// What is timed on every scene.
 #[derive(Debug)]
@@ -83,22 +84,28 @@ pub fn bench(
     let (image, truth) = truth(scene, camera, setting.seed, progress)?;
     let entrants = entrants(input, setting, &image).map_err(BenchError::Contestant)?;
     let tick = progress("check", u32::try_from(entrants.len()).unwrap_or(u32::MAX));
-    let (mut rows, mut passed, mut places) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut rows, mut passed) = (Vec::new(), Vec::new());
     for mut entrant in entrants {
         let row = checked(entrant.as_mut(), input, &image);
         if row.remark.is_none() {
-            places.push(rows.len());
-            passed.push(entrant);
+            let heat =
+                if row.kind == Kind::Embree { heat(entrant.as_mut(), input)? } else { Taken::default() };
+            passed.push(Passed { entrant, place: rows.len(), heat });
         }
         rows.push(row);
+        leave_out(&mut passed, &mut rows, camera);
         tick();
     }
-    let limit = setting.effort.rounds.unwrap_or(super::rounds::LEAST);
-    heats(&mut passed, &mut places, &mut rows, input)?;
-    let tick = progress("rounds", u32::try_from(limit).unwrap_or(u32::MAX));
+    let (mut entrants, mut places) = (Vec::new(), Vec::new());
+    for Passed { entrant, place, .. } in passed {
+        entrants.push(entrant);
+        places.push(place);
+    }
     let mut measured = 0;
-    if !passed.is_empty() {
-        let outcome = rounds(&mut passed, scene, camera, setting.effort, &*tick);
+    if !entrants.is_empty() {
+        let least = setting.effort.rounds.unwrap_or(super::rounds::LEAST);
+        let tick = progress("rounds", u32::try_from(least).unwrap_or(u32::MAX));
+        let outcome = rounds(&mut entrants, scene, camera, setting.effort, &*tick);
         let (taken, count) = outcome.map_err(BenchError::Contestant)?;
         measured = count;
         for (place, taken) in places.into_iter().zip(&taken) {
@@ -116,7 +123,7 @@ fn truth(
     progress: Progress<'_>,
 ) -> Result<(Image, Truth), BenchError> {
     let pixels = camera.size().pixels();
-    let (image, how, by_full_loop) = if scene.spheres().len() <= NARROWED_FROM {
+    let (image, how, by_full_loop) = if scene.spheres().len() as u128 * pixels as u128 <= NARROWED_FROM {
         let tick = progress("exact", camera.size().height());
         let image = Tracer::new(Arithmetic::Exact).render_with(scene, camera, &*tick)?.image;
         (image, "every pixel by the exact loop over all spheres".to_owned(), pixels)
@@ -182,27 +189,31 @@ pub(super) fn checked(entrant: &mut dyn Contestant, input: &Input<'_>, truth: &I
     row
 }
 
-/// Leaves out those of Embree's ways that are far behind, with the times of their heat.
-fn heats(
-    passed: &mut Vec<Box<dyn Contestant>>,
-    places: &mut Vec<usize>,
-    rows: &mut [Row],
-    input: &Input<'_>,
-) -> Result<(), BenchError> {
-    let mut heats = vec![Taken::default(); passed.len()];
-    for (entrant, taken) in passed.iter_mut().zip(&mut heats).filter(|(e, _)| e.kind() == Kind::Embree) {
-        turn(entrant.as_mut(), input.scene, input.camera, taken).map_err(BenchError::Contestant)?;
+/// Who may be timed, its place among the rows, and its heat if it had one.
+struct Passed {
+    entrant: Box<dyn Contestant>,
+    place: usize,
+    heat: Taken,
+}
+
+fn heat(entrant: &mut dyn Contestant, input: &Input<'_>) -> Result<Taken, BenchError> {
+    let mut taken = Taken::default();
+    turn(entrant, input.scene, input.camera, &mut taken).map_err(BenchError::Contestant)?;
+    Ok(taken)
+}
+
+/// Leaves out the slowest of Embree's ways if there are too many, with the times of its heat.
+fn leave_out(passed: &mut Vec<Passed>, rows: &mut [Row], camera: &Camera) {
+    let ways = passed.iter().enumerate().filter(|(_, p)| p.entrant.kind() == Kind::Embree);
+    if ways.clone().count() <= KEPT {
+        return;
     }
-    let best = heats.iter().map(Taken::least).fold(f64::INFINITY, f64::min);
-    for k in (0..passed.len()).rev() {
-        if passed[k].kind() == Kind::Embree && heats[k].least() > BEHIND * best {
-            time(&mut rows[places[k]], &heats[k], input.camera);
-            rows[places[k]].remark = Some("Far behind in its heat, and timed no further.".into());
-            passed.remove(k);
-            places.remove(k);
-        }
+    let slowest = ways.max_by(|x, y| x.1.heat.least().total_cmp(&y.1.heat.least())).map(|(k, _)| k);
+    if let Some(k) = slowest {
+        let Passed { place, heat, .. } = passed.remove(k);
+        time(&mut rows[place], &heat, camera);
+        rows[place].remark = Some("Slower than others of its kind in its heat, and timed no further.".into());
     }
-    Ok(())
 }
 
 fn time(row: &mut Row, taken: &Taken, camera: &Camera) {

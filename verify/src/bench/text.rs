@@ -9,10 +9,10 @@ use crate::report::words::{NONE, count, duration, figure, sign};
 use anstyle::Style;
 use textwrap::core::display_width;
 
-/// Heading of each column and the most it may take: with the spaces between them 98 columns.
+/// Heading of each column and the most it may take: with the spaces between them 99 columns.
 const COLUMNS: [(&str, usize); 9] = [
-    ("scene", 14),
-    ("tracer", 24),
+    ("scene", 13),
+    ("tracer", 26),
     ("verdict", 14),
     ("differ", 6),
     ("build", 8),
@@ -115,6 +115,9 @@ pub fn sentences(bench: &Bench) -> Vec<String> {
         }));
     }
     said.extend(bench.curves.iter().flat_map(|curve: &Curve| curve.growth.iter().map(growth)));
+    if let Some(held) = &bench.baseline {
+        said.extend(held.steps.iter().map(|step| step.sentence(held.tolerance)));
+    }
     said.extend(bench.absent.iter().map(|absent| format!("{}: not timed. {}", absent.judge, absent.why)));
     said
 }

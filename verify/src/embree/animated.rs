@@ -118,9 +118,7 @@ impl Animated {
         let strips = Mutex::new(ids.chunks_mut(pixels).zip(t.chunks_mut(pixels)).enumerate());
         let next = || strips.lock().expect("no thread panics while it holds the list").next();
         let work = || {
-            while let Some((strip, (ids, t))) = next() {
-                self.rays.trace(scene, self.mode, strip, ids, t)?;
-            }
+            self.rays.trace(scene, self.mode, &next)?;
             if flush::subnormals_count() { Ok(()) } else { Err(EmbreeError::FlushStuck) }
         };
         if threads <= 1 {
@@ -133,16 +131,17 @@ impl Animated {
     }
 }
 
+/// A strip of the picture, [`TILE`] rows or what is left: its number and its part of the layers.
+type Strip<'a> = (usize, (&'a mut [u32], &'a mut [f32]));
+
 /// Rays in packets of any width.
 trait Rays: Send + Sync {
-    /// Traces a strip of the picture, [`TILE`] rows or what is left, into its part of the layers.
-    fn trace(
+    /// Traces strips until there is no next one.
+    fn trace<'a>(
         &self,
         scene: &RawScene,
         mode: Mode,
-        strip: usize,
-        ids: &mut [u32],
-        t: &mut [f32],
+        next: &dyn Fn() -> Option<Strip<'a>>,
     ) -> Result<(), EmbreeError>;
 }
 
@@ -157,6 +156,8 @@ struct Aim<const W: usize> {
 struct Laid<const W: usize> {
     size: Size,
     block: [u32; 2],
+    /// Whether no packet reaches beyond the picture.
+    whole: bool,
     eye: [f32; 3],
     strips: Vec<Vec<Aim<W>>>,
 }
@@ -177,7 +178,8 @@ impl<const W: usize> Laid<W> {
             aims
         };
         let strips = (0..size.height()).step_by(TILE as usize).map(strip).collect();
-        Self { size, block, eye: camera.eye(), strips }
+        let whole = size.width() % w == 0 && size.height() % h == 0;
+        Self { size, block, whole, eye: camera.eye(), strips }
     }
 
     /// Which lanes of a packet lie within a strip of so many rows.
@@ -209,36 +211,57 @@ fn directions<const W: usize>(camera: &Camera, [w, h]: [u32; 2], [x, y]: [u32; 2
 }
 
 impl<const W: usize> Rays for Laid<W> {
-    fn trace(
+    fn trace<'a>(
         &self,
         scene: &RawScene,
         mode: Mode,
-        strip: usize,
-        ids: &mut [u32],
-        t: &mut [f32],
+        next: &dyn Fn() -> Option<Strip<'a>>,
     ) -> Result<(), EmbreeError> {
         let width = self.size.width() as usize;
-        let rows = u32::try_from(ids.len() / width).expect("few rows");
         let mut packets: [Packet<W, GROWTH>; BATCH] = std::array::from_fn(|_| Packet::from_eye(self.eye));
-        let mut valid: [Valid<W>; BATCH] = std::array::from_fn(|_| Valid([0; W]));
-        for aims in self.strips[strip].chunks(BATCH) {
-            for ((packet, valid), aim) in packets.iter_mut().zip(&mut valid).zip(aims) {
-                packet.aim(&aim.dir);
-                *valid = self.valid(aim, rows);
-            }
-            let asked = &mut packets[..aims.len()];
-            scene.intersect_all(&valid[..aims.len()], asked, mode.coherent);
-            for (packet, aim) in asked.iter().zip(aims) {
-                let (found, at) = packet.found();
-                let [w, h] = self.block.map(|side| side as usize);
-                let columns = w.min(width - aim.column as usize);
-                for row in 0..h.min(rows as usize - aim.row as usize) {
-                    let first = (aim.row as usize + row) * width + aim.column as usize;
-                    ids[first..first + columns].copy_from_slice(&found[row * w..row * w + columns]);
-                    t[first..first + columns].copy_from_slice(&at[row * w..row * w + columns]);
+        let mut valid: [Valid<W>; BATCH] = std::array::from_fn(|_| Valid([-1; W]));
+        while let Some((strip, (ids, t))) = next() {
+            let rows = u32::try_from(ids.len() / width).expect("few rows");
+            for aims in self.strips[strip].chunks(BATCH) {
+                for ((packet, valid), aim) in packets.iter_mut().zip(&mut valid).zip(aims) {
+                    packet.aim(&aim.dir);
+                    if !self.whole {
+                        *valid = self.valid(aim, rows);
+                    }
+                }
+                let asked = &mut packets[..aims.len()];
+                scene.intersect_all(&valid[..aims.len()], asked, mode.coherent);
+                for (packet, aim) in asked.iter().zip(aims) {
+                    let (found, at) = packet.found();
+                    let first = aim.row as usize * width + aim.column as usize;
+                    let columns = width - aim.column as usize;
+                    put(found, columns, width, &mut ids[first..]);
+                    put(at, columns, width, &mut t[first..]);
                 }
             }
+            packets.iter().try_for_each(|packet| packet.check(mode.width))?;
         }
-        packets.iter().try_for_each(|packet| packet.check(mode.width))
+        Ok(())
+    }
+}
+
+/// Copies a block's lanes into a layer that begins at its first pixel and has so many columns left.
+#[inline]
+fn put<T: Copy, const W: usize>(lanes: &[T; W], columns: usize, width: usize, layer: &mut [T]) {
+    match W {
+        1 => layer[0] = lanes[0],
+        4 => put_rows::<T, 2>(lanes, columns, width, layer),
+        _ => put_rows::<T, 4>(lanes, columns, width, layer),
+    }
+}
+
+/// The same for rows of a length that the compiler knows, so that a whole row is a store and no call.
+#[inline]
+fn put_rows<T: Copy, const ROW: usize>(lanes: &[T], columns: usize, width: usize, layer: &mut [T]) {
+    for (lanes, row) in lanes.as_chunks::<ROW>().0.iter().zip(layer.chunks_mut(width)) {
+        match row.first_chunk_mut::<ROW>() {
+            Some(row) if columns >= ROW => *row = *lanes,
+            _ => row[..columns].copy_from_slice(&lanes[..columns]),
+        }
     }
 }

@@ -14,7 +14,7 @@ mod names;
 mod outside;
 mod pictures;
 pub(crate) mod text;
-mod view;
+pub(crate) mod view;
 pub(crate) mod words;
 
 pub use data::{

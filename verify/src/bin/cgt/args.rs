@@ -111,11 +111,30 @@ pub(crate) struct Bench {
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=10_000))]
     pub(crate) rounds: Option<u16>,
     /// Time for measuring on each scene, if there is no --rounds
-    #[arg(long, value_name = "SECONDS", default_value_t = 5.0, value_parser = seconds)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]
     pub(crate) seconds: f64,
+    /// Also time how times grow: with random spheres up to --most-spheres, with the pixels of the first scene up to --most-rows,
+    /// with threads up to one a core
+    #[arg(long)]
+    pub(crate) curves: bool,
+    /// Where the curve over spheres ends
+    #[arg(long, value_name = "N", default_value_t = 10_000_000)]
+    pub(crate) most_spheres: usize,
+    /// Where the curve over pixels ends, in rows of a picture
+    #[arg(long, value_name = "N", default_value_t = 2160)]
+    pub(crate) most_rows: u32,
     /// File for all that was found, as JSON
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
+    /// Folder for a page that opens offline, bench.html, with the same data in bench.json beside it
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// The JSON file of an earlier run on this machine: if a scene is slower now, the exit code is 4
+    #[arg(long, value_name = "FILE")]
+    pub(crate) baseline: Option<PathBuf>,
+    /// How much slower a scene may be than in the baseline, in per cent
+    #[arg(long, value_name = "PERCENT", default_value_t = 10.0, value_parser = percent)]
+    pub(crate) tolerance: f64,
     #[command(flatten)]
     pub(crate) view: View,
 }
@@ -222,6 +241,11 @@ fn size(text: &str) -> Result<Size, String> {
 fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse::<f64>().map_err(|e| e.to_string())?;
     if (0.0..=86_400.0).contains(&seconds) { Ok(seconds) } else { Err("expected 0 to 86400".into()) }
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    let percent = text.parse::<f64>().map_err(|e| e.to_string())?;
+    if (0.0..100.0).contains(&percent) { Ok(percent) } else { Err("expected 0 to below 100".into()) }
 }
 
 fn vector(text: &str) -> Result<[f64; 3], String> {
