@@ -140,7 +140,7 @@ fn label(row: &Row) -> String {
     if row.kind == Kind::Embree { "Embree".into() } else { row.name.clone() }
 }
 
-/// Speed over scenes: scenes side by side, each contestant a line.
+/// Speed over scenes, these side by side.
 fn overview(scenes: &[SceneBench]) -> Option<String> {
     let series = gathered(scenes.iter().zip(1_u32..).flat_map(|(scene, k)| {
         drawn(scene)
@@ -148,7 +148,8 @@ fn overview(scenes: &[SceneBench]) -> Option<String> {
     }));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of scenes")]
     let name = |x: f64| scenes.get(x as usize - 1).map_or_else(String::new, |scene| scene.name.clone());
-    let axes = Axes { x: "scenes", y: "Mray/s", x_word: &name, y_word: figure, logarithmic: false };
+    let axes =
+        Axes { x: "scenes", y: "Mray/s", x_word: &name, y_word: figure, logarithmic: false, joined: false };
     plot("Millions of rays a second on each scene", axes, &series)
 }
 
@@ -190,6 +191,7 @@ fn shown(curve: &Curve) -> Shown {
         x_word: &short,
         y_word: duration,
         logarithmic: curve.over != "threads",
+        joined: true,
     };
     Shown {
         title,

@@ -30,6 +30,8 @@ pub(super) struct Axes<'a> {
     pub(super) y_word: fn(f64) -> String,
     /// Whether the horizontal one is logarithmic, as the vertical one always is.
     pub(super) logarithmic: bool,
+    /// Whether a series' points are joined by a line.
+    pub(super) joined: bool,
 }
 
 /// The picture, and the part of it that the axes enclose.
@@ -74,8 +76,10 @@ pub(super) fn plot(title: &str, axes: Axes<'_>, series: &[Series]) -> Option<Str
     words(&mut svg, "start", [8.0, 14.0], axes.y);
     for series in series {
         let points: Vec<_> = series.points.iter().map(|p| [x.at(p[0]), y.at(p[1])]).collect();
-        let path: Vec<_> = points.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
-        _ = write!(svg, "<polyline class=\"{}\" points=\"{}\"/>", series.class, path.join(" "));
+        if axes.joined {
+            let path: Vec<_> = points.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+            _ = write!(svg, "<polyline class=\"{}\" points=\"{}\"/>", series.class, path.join(" "));
+        }
         for [x, y] in points {
             _ = write!(svg, "<circle class=\"{}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"/>", series.class);
         }
