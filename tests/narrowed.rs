@@ -3,7 +3,7 @@
 use contract::{Camera, DEFAULT_LIGHT, Image, Scene, Size, Sphere};
 use reference::{Arithmetic, Tracer};
 use verify::judge::compare::compare;
-use verify::judge::narrowed::{NarrowedError, narrowed, sample};
+use verify::judge::narrowed::{NarrowedError, SURPLUS, View, narrowed, sample};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::seed::seed;
@@ -41,6 +41,37 @@ fn scenes_come_out_the_same() {
             agree(name, &scene, &camera);
         }
     }
+}
+
+/// The derivation itself, without the pixel that is added and the tiles that hide what is near: the middle of each pixel that
+/// shows a sphere lies where that sphere may be seen. At the silhouettes it comes close.
+#[test]
+fn what_is_seen_lies_where_it_may_be() {
+    let (mut seen, mut close) = (0, 0);
+    let wide =
+        Framing { fov: Some(120.0), eye: Some([0.5, 0.5, 1.2]), target: Some([0.5; 3]), ..size(400, 225) };
+    let far = |far: f64| {
+        let fov = (2.0 / far).atan().to_degrees();
+        Framing { eye: Some([0.5, 0.3, far]), target: Some([0.5; 3]), fov: Some(fov), ..size(400, 225) }
+    };
+    let views = [size(400, 225), wide, far(1e2), far(1e3), far(1e4), far(1e5)];
+    for (name, framing) in
+        views.iter().flat_map(|view| ["uniform:50:1", "uniform:500:1"].map(|name| (name, view)))
+    {
+        let (scene, camera) = made(name, framing);
+        let (image, view) = (full(&scene, &camera), View::new(&camera).expect("a plain camera"));
+        for (i, id) in (0_u32..).zip(&image.ids).filter(|(_, id)| **id != contract::MISS) {
+            let middle = [i % 400, i / 400].map(|place| f64::from(place) + 0.5);
+            let Some(range) = view.pixels(&scene.spheres()[*id as usize]) else { continue };
+            for (middle, [lo, hi]) in middle.into_iter().zip(range) {
+                let room = (middle - lo).min(hi - middle) - SURPLUS;
+                assert!(room >= 0.0, "{name}, {framing:?}: pixel {i} lies {} beyond sphere {id}", -room);
+                close += u32::from(room < 0.25);
+            }
+            seen += 1;
+        }
+    }
+    assert!(seen > 100_000 && close > 500, "{seen} pixels, {close} of them close");
 }
 
 #[test]

@@ -44,7 +44,10 @@ impl Outsider {
 /// Those that were asked for and are there.
 #[derive(Debug, Default)]
 pub struct Field {
-    #[cfg_attr(not(any(feature = "embree", feature = "peers")), allow(dead_code, reason = "nobody is there"))]
+    #[cfg_attr(
+        not(any(feature = "embree", feature = "peers")),
+        allow(dead_code, reason = "nobody is there")
+    )]
     threads: usize,
     #[cfg(feature = "embree")]
     embree: Option<crate::embree::Device>,

@@ -236,8 +236,12 @@ fn length(v: Vector) -> f64 {
     dot(v, v).sqrt()
 }
 
+/// Pixels that are added on each side beyond what the derivation asks for.
+pub const SURPLUS: f64 = 1.0;
+
 /// The camera turned round: from points to pixels.
-struct View {
+#[derive(Clone, Copy, Debug)]
+pub struct View {
     eye: Vector,
     /// Rows of the inverse of M, and their lengths.
     rows: [Vector; 3],
@@ -250,7 +254,8 @@ struct View {
 
 impl View {
     /// `None` for a camera of which nothing can be said.
-    fn new(camera: &Camera) -> Option<Self> {
+    #[must_use]
+    pub fn new(camera: &Camera) -> Option<Self> {
         let wide = |v: [f32; 3]| v.map(f64::from);
         let (eye, corner, du, dv) =
             (wide(camera.eye()), wide(camera.corner()), wide(camera.du()), wide(camera.dv()));
@@ -273,13 +278,14 @@ impl View {
         if !(0.0..0.25).contains(&delta[2]) {
             return None;
         }
-        let pad = [0, 1].map(|i| 1.0 + 1.34 * (middle[i] + delta[i]) * delta[2] + delta[i]);
+        let pad = [0, 1].map(|i| SURPLUS + 1.34 * (middle[i] + delta[i]) * delta[2] + delta[i]);
         Some(Self { eye, rows, lengths, middle, pad })
     }
 
-    /// From where to where in x and in y a sphere may be seen, in pixels from the picture's corner; `None` if that cannot
-    /// be said.
-    fn pixels(&self, sphere: &Sphere) -> Option<[[f64; 2]; 2]> {
+    /// From where to where in x and in y a sphere may be seen, in pixels from the picture's corner, a pixel being where its
+    /// middle is; `None` if that cannot be said.
+    #[must_use]
+    pub fn pixels(&self, sphere: &Sphere) -> Option<[[f64; 2]; 2]> {
         let (r, c) = (f64::from(sphere.radius), sphere.center.map(f64::from));
         let f = [0, 1, 2].map(|i| c[i] - self.eye[i]);
         let far = length(f);
