@@ -42,9 +42,9 @@ fn median(row: &Value) -> Option<f64> {
     row["timing"]["total"]["median"].as_f64()
 }
 
-/// The fastest of a kind.
+/// The fastest of a kind, of those that were timed in rounds.
 fn fastest(scene: &Value, kind: &str) -> Option<f64> {
-    let rows = list(scene, "contestants").iter().filter(|row| row["kind"] == kind);
+    let rows = list(scene, "contestants").iter().filter(|row| row["kind"] == kind && row["remark"].is_null());
     rows.filter_map(median).reduce(f64::min)
 }
 

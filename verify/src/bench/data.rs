@@ -134,7 +134,7 @@ pub struct Row {
     pub timing: Option<Timing>,
     /// Millions of rays a second, by the median of whole frames.
     pub mega_rays_per_second: Option<f64>,
-    /// Why it has no times, or fewer than the others.
+    /// Why it has no times, or only those of a heat.
     pub remark: Option<String>,
 }
 

@@ -3,6 +3,7 @@
 
 use super::contestant::Kind;
 use super::data::{Bench, Curve, Growth, Row, SceneBench};
+use super::plot::short;
 use crate::report::text::{clipped, style, wrapped};
 use crate::report::word;
 use crate::report::words::{NONE, count, duration, figure, sign};
@@ -128,8 +129,8 @@ pub fn growth(growth: &Growth) -> String {
     format!(
         "{} from {} to {}: {} times, {} {} is wanted{}",
         growth.what,
-        figure(growth.between[0]),
-        figure(growth.between[1]),
+        short(growth.between[0]),
+        short(growth.between[1]),
         figure(growth.factor),
         if growth.at_least { "at least" } else { "at most" },
         figure(growth.wanted),
