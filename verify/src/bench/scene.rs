@@ -10,7 +10,7 @@ use super::contestant::{Contestant, Kind};
 use super::data::{Row, SceneBench, Truth};
 use super::ours::Ours;
 use super::outsiders::Field;
-use super::rounds::{Effort, Taken, rounds, turn};
+use super::rounds::{Effort, LONG, Taken, rounds, turn};
 use crate::judge::narrowed::{NarrowedError, narrowed};
 use crate::subject::{NamedPlan, SubjectError};
 use crate::verdict::Verdict;
@@ -21,6 +21,8 @@ use thiserror::Error;
 
 /// See the module's text.
 pub const KEPT: usize = 3;
+/// Turns of a heat.
+const HEAT: usize = 3;
 /// Where spheres times pixels are more, the exact picture is made by narrowed loops.
 pub const NARROWED_FROM: u128 = 10_000_000_000;
 
@@ -196,9 +198,15 @@ struct Passed {
     heat: Taken,
 }
 
+/// A few turns, so that one bad moment leaves nobody out; of long frames one.
 fn heat(entrant: &mut dyn Contestant, input: &Input<'_>) -> Result<Taken, BenchError> {
     let mut taken = Taken::default();
-    turn(entrant, input.scene, input.camera, &mut taken).map_err(BenchError::Contestant)?;
+    for _ in 0..HEAT {
+        turn(entrant, input.scene, input.camera, &mut taken).map_err(BenchError::Contestant)?;
+        if taken.least() > LONG {
+            break;
+        }
+    }
     Ok(taken)
 }
 

@@ -10,9 +10,9 @@ use crate::report::words::{NONE, count, duration, figure, sign};
 use anstyle::Style;
 use textwrap::core::display_width;
 
-/// Heading of each column and the most it may take: with the spaces between them 99 columns.
+/// Heading of each column and the most it may take: with the spaces between them 100 columns.
 const COLUMNS: [(&str, usize); 9] = [
-    ("scene", 13),
+    ("scene", 14),
     ("tracer", 26),
     ("verdict", 14),
     ("differ", 6),
