@@ -22,8 +22,11 @@
 //! # Model
 //!
 //! fl(x ∘ y) = (x ∘ y)(1 + δ), |δ| <= u: u = 2⁻ᵖ for p bits rounded to nearest ([`NEAREST`]: 2⁻²⁴), twice that for truncation
-//! ([`TRUNCATING`]). γ_k = (1 + u)ᵏ − 1 bounds k of them. What follows holds for every u < 1/8, not to first order only. Over- and
-//! underflow are excluded by the range checked below (`in_range`); where it says no, the bound is infinite, and the sphere is never decided in f32.
+//! ([`TRUNCATING`]). γ_k = (1 + u)ᵏ − 1 bounds k of them. What follows holds for every u < 1/8, not to first order only.
+//!
+//! *Range.* Centres are within 2⁴⁰ of the eye, radii from 2⁻⁴⁰ to 2⁴⁰; beyond, the bound is infinite, and the sphere is never decided
+//! in f32. So the largest product is below 2⁸⁵. A slope, a square or a product that underflows is off by 2⁻¹⁵⁰, so D by less than
+//! 2⁻¹⁰⁸ r, which is below 2⁻⁴⁴ times u r².
 //!
 //! # The sign of D
 //!
@@ -65,17 +68,24 @@
 //! to which u m comes from c_A, and u times the sum. The half chord is taken from D with its threshold added or subtracted, so
 //! it is right but for its own roundings, ((1 + η)(1 + u)³ − 1) of at most r + √(both thresholds). Two more sums of at most m + 2r
 //! and so on are rounded. All of that together is [`Bound::root`].
+//!
+//! Each of the three is at most a form in r and m ([`Rule`]), of second degree for the signs and, since √(r m) <= (r + m)/2, of first
+//! degree for the root; so a sphere's bound takes a few operations, and sixteen take no more.
+
+use crate::camera::spread;
+use crate::host::Scalar;
+use crate::machine::Machine;
 
 /// Unit roundoff of f32 rounded to nearest.
 pub const NEAREST: f64 = 1.0 / (1u32 << 24) as f64;
 /// Unit roundoff of f32 truncated, as the SPU does.
 pub const TRUNCATING: f64 = 1.0 / (1u32 << 23) as f64;
 
-/// 1 + 2⁻¹⁰: over the few f64 roundings of the bound, and over what underflows within [`in_range`].
+/// 1 + 2⁻¹⁰: over the few roundings of the bound itself, and over what underflows within its range.
 const SLACK: f64 = 1.0 + 1.0 / 1024.0;
 
 /// What rounding can do to a sphere, whatever the ray. In scene units, squared for the first two.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bound {
     /// A computed D above this is positive in truth.
     pub hit_above: f32,
@@ -89,49 +99,81 @@ impl Bound {
     /// Decides nothing.
     pub const NONE: Self =
         Self { hit_above: f32::INFINITY, miss_below: f32::NEG_INFINITY, root: f32::INFINITY };
+}
 
-    /// The bound for a centre whose coordinates are at most `farthest` from the eye's, in an arithmetic of that unit roundoff.
+/// The bounds of an arithmetic: forms in r and m, with coefficients that are rounded up.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// Of r², r m and m².
+    above: [f32; 3],
+    /// Of r², r m and m².
+    below: [f32; 3],
+    /// Of r and m.
+    root: [f32; 2],
+}
+
+impl Rule {
+    /// For an arithmetic of that unit roundoff.
     #[must_use]
-    pub fn new(unit: f64, farthest: f64, radius: f64) -> Self {
-        if !in_range(farthest, radius) {
-            return Self::NONE;
-        }
-        let (u, m, r) = (unit, farthest, radius);
+    pub fn new(unit: f64) -> Self {
+        let u = unit;
         let gamma = |k| (1.0 + u).powi(k) - 1.0;
         let (g2, g3, g5) = (gamma(2), gamma(3), gamma(5));
         let (root2, root3) = (2f64.sqrt(), 3f64.sqrt());
         let k = (1.0 + u) * (u + (1.0 + u) * u / 2.0 + (1.0 + u) * u) + u * u;
-        let p = ((6.0 * k * k + 3.0 * u * u).sqrt() + 2.0 * g3 * (k + u)) * m;
-        let relative = root3 * g2 + root2 * g3 * (1.0 + g2);
+        // P = p m and x = p m + q r.
+        let p = (6.0 * k * k + 3.0 * u * u).sqrt() + 2.0 * g3 * (k + u);
+        let q = root3 * (root3 * g2 + root2 * g3 * (1.0 + g2));
         let beta = (g2 + 2.0 * g5) / 3.0;
         let kappa = (1.0 + beta) * (1.0 + u) * (1.0 + u) - 1.0;
-        let rho = root3 * r;
-        let x = p + relative * rho;
-        let above = (kappa + g3) * rho * rho + 2.0 * rho * x;
-        let below = kappa * rho * rho + g3 * (rho + x) * (rho + x) + 2.0 * rho * x + x * x;
-        let last = u * (rho * rho + below);
-        let (above, below) = (above + last, below + last);
+        let sum = root3 + q;
+        let above = [3.0 * (kappa + g3) + 2.0 * root3 * q, 2.0 * root3 * p, 0.0];
+        let below = [
+            3.0 * kappa + g3 * sum * sum + 2.0 * root3 * q + q * q,
+            2.0 * (g3 * sum + root3 + q) * p,
+            (g3 + 1.0) * p * p,
+        ];
+        let last = [u * (3.0 + below[0]), u * below[1], u * below[2]];
+        let above = [0, 1, 2].map(|i| above[i] + last[i]);
+        let below = [0, 1, 2].map(|i| below[i] + last[i]);
 
         let eta = (1.0 + u) / (1.0 - beta) - 1.0;
         let tau = (1.0 + eta) * (1.0 + u);
         let across =
-            0.5f64.sqrt() * (1.0 + g3) * (k + u) * m + (2.0f64 / 3.0).sqrt() * (g2 + g3 * (1.0 + g2)) * r;
-        let offset = tau * across + (tau - 1.0) * r;
-        let middle = u * m + offset + u * ((1.0 + u) * m + r + offset);
-        let chord = r + (above + below).sqrt();
-        let half = ((1.0 + eta) * gamma(3) + eta) * chord;
-        let ends = 2.0 * u * (1.0 + u) * (m + r + chord + middle + half);
-        let root = (middle + half + ends) * (1.0 + u) / (1.0 - u);
-        Self { hit_above: up(above), miss_below: -up(below), root: up(root) }
+            [(2.0f64 / 3.0).sqrt() * (g2 + g3 * (1.0 + g2)), 0.5f64.sqrt() * (1.0 + g3) * (k + u)];
+        let offset = [tau * across[0] + (tau - 1.0), tau * across[1]];
+        let middle = [offset[0] + u * (1.0 + offset[0]), u + offset[1] + u * (1.0 + u + offset[1])];
+        // √(a r² + b r m + c m²) <= √a r + √b (r + m) / 2 + √c m.
+        let [a, b, c] = [0, 1, 2].map(|i: usize| (above[i] + below[i]).sqrt());
+        let chord = [1.0 + a + b / 2.0, b / 2.0 + c];
+        let half = chord.map(|chord| ((1.0 + eta) * gamma(3) + eta) * chord);
+        let ends = [0, 1].map(|i| 2.0 * u * (1.0 + u) * (1.0 + chord[i] + middle[i] + half[i]));
+        let root = [0, 1].map(|i| (middle[i] + half[i] + ends[i]) * (1.0 + u) / (1.0 - u));
+        Self { above: above.map(up), below: below.map(up), root: root.map(up) }
     }
-}
 
-/// Whether no step of the kernel over- or underflows in a way that counts: centres within 2⁴⁰ of the eye, radii from 2⁻⁴⁰ to
-/// 2⁴⁰. The largest product is then below 2⁸⁵. A slope, a square or a product that underflows is off by 2⁻¹⁵⁰, so D by less than
-/// 2⁻¹⁰⁸ r, which is below 2⁻⁴⁴ times u r².
-fn in_range(farthest: f64, radius: f64) -> bool {
-    let limit = (1u64 << 40) as f64;
-    farthest <= limit && (limit.recip()..=limit).contains(&radius)
+    /// The bound of a sphere whose centre's coordinates are at most `farthest` from the eye's.
+    #[must_use]
+    pub fn bound(&self, farthest: f32, radius: f32) -> Bound {
+        let limit = (1u64 << 40) as f32;
+        if farthest > limit || !(limit.recip()..=limit).contains(&radius) {
+            return Bound::NONE;
+        }
+        let m = Scalar;
+        let [above, below, root] = self.bounds(m, m.splat(farthest), m.splat(radius));
+        Bound { hit_above: above[0], miss_below: below[0], root: root[0] }
+    }
+
+    /// Kernel: hit above, miss below and root of sixteen spheres in range.
+    #[inline(always)]
+    pub fn bounds<M: Machine>(&self, m: M, farthest: M::F, radius: M::F) -> [M::F; 3] {
+        let squares = [m.mul(radius, radius), m.mul(radius, farthest), m.mul(farthest, farthest)];
+        let above = m.dot(spread(m, self.above), squares);
+        let below = m.dot(spread(m, self.below), squares);
+        let [of_radius, of_farthest] = self.root;
+        let root = m.add(m.mul(m.splat(of_radius), radius), m.mul(m.splat(of_farthest), farthest));
+        [above, m.neg(below), root]
+    }
 }
 
 #[allow(clippy::cast_possible_truncation, reason = "rounded up")]

@@ -33,15 +33,20 @@ impl<M: Machine> CameraLanes<M> {
         Self { corner: spread(m, camera.corner()), du: spread(m, camera.du()), dv: spread(m, camera.dv()) }
     }
 
-    /// Kernel: the rays through the pixels whose middles are (x, y).
+    /// Kernel: the directions through the pixels whose middles are (x, y).
     #[inline(always)]
-    pub fn block(&self, m: M, x: M::F, y: M::F) -> Block<M> {
-        let dir = three(
+    pub fn directions(&self, m: M, x: M::F, y: M::F) -> [M::F; 3] {
+        three(
             [0, 1, 2],
             #[inline(always)]
             |i| m.add(m.add(self.corner[i], m.mul(x, self.du[i])), m.mul(y, self.dv[i])),
-        );
-        Block::new(m, dir)
+        )
+    }
+
+    /// Kernel: the rays through them.
+    #[inline(always)]
+    pub fn block(&self, m: M, x: M::F, y: M::F) -> Block<M> {
+        Block::new(m, self.directions(m, x, y))
     }
 }
 

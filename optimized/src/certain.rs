@@ -47,7 +47,7 @@ pub enum Side {
 }
 
 /// A sphere relative to the eye: its centre along (A, Y, Z), r², its bound, the eye's side.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Ball {
     /// Centre minus eye.
     pub center: [f32; 3],
@@ -73,9 +73,9 @@ pub struct Found<M: Machine> {
 }
 
 impl<M: Machine> Rays<M> {
-    /// Kernel: what can be said of a ball; `None` if all rays certainly miss it.
+    /// Kernel: what can be said of a ball for the rays `of` a packet; `None` if all of these certainly miss it.
     #[inline(always)]
-    pub fn find(&self, m: M, ball: &Ball) -> Option<Found<M>> {
+    pub fn find(&self, m: M, ball: &Ball, of: M::B) -> Option<Found<M>> {
         let [y, z] = self.slope;
         let [ca, cy, cz] = [m.splat(ball.center[0]), m.splat(ball.center[1]), m.splat(ball.center[2])];
         let ey = m.sub(cy, m.mul(y, ca));
@@ -85,7 +85,7 @@ impl<M: Machine> Rays<M> {
         let discriminant = m.sub(m.mul(self.a, m.splat(ball.rr)), square);
         let (above, below) = (m.splat(ball.bound.hit_above), m.splat(ball.bound.miss_below));
         // A NaN is not below, hence possible.
-        let possible = m.not(m.lt(discriminant, below));
+        let possible = m.and(of, m.not(m.lt(discriminant, below)));
         if !m.any(possible, Site::Sphere) {
             return None;
         }

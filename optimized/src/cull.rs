@@ -38,6 +38,14 @@ pub fn radius(margins: Margins, f: [f32; 3], reach: f32) -> f32 {
     }
 }
 
+/// Kernel: the same for sixteen spheres whose reach is their radius, with margins; of their centres' coordinates the magnitudes.
+#[inline(always)]
+pub fn radii<M: Machine>(m: M, [x, y, z]: [M::F; 3], radius: M::F) -> M::F {
+    // Twice the slack of one: it covers the rounding of this sum as well.
+    let slack = m.mul(m.splat(2.0 * SLACK), m.add(m.add(m.add(x, y), z), radius));
+    m.add(radius, slack)
+}
+
 impl<M: Machine> Planes<M> {
     /// The planes of a frustum.
     #[inline(always)]

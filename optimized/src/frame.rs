@@ -1,15 +1,15 @@
 //! A frame: the grid is built, then stripes of four scanlines go to the workers as these become free, each stripe
 //! in 4x4 blocks from left to right (the paper's SPUs and their blocks of scanlines).
 
-use crate::camera::{BLOCK, Block, CameraLanes, middles, spread};
+use crate::camera::{BLOCK, CameraLanes, middles};
 use crate::event::{Events, RenderError};
-use crate::machine::{LANES, Machine, three};
-use crate::plan::{Plan, Sharing};
+use crate::machine::Machine;
+use crate::plan::{Packet, Plan, Sharing};
 use crate::seen::{Counts, Seen, Worker};
-use crate::settle::Answers;
-use crate::shade::{Surface, shade};
-use crate::sphere::NONE;
-use contract::{Camera, Image, MISS, Scene, Size, SizeError};
+use crate::settle::ALL;
+use crate::stripe::{Painter, Stripe};
+use crate::tile::{Rect, Tiles};
+use contract::{Camera, Image, MISS, Scene, Size};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -76,14 +76,6 @@ impl Known {
     }
 }
 
-/// A stripe of the image under work: its rows of ids, t and colours.
-struct Stripe<'a> {
-    y: u32,
-    ids: &'a mut [u32],
-    t: &'a mut [f32],
-    rgba: &'a mut [[u8; 4]],
-}
-
 impl Rendering {
     /// An empty frame, whose memory is taken by those that follow.
     pub(crate) fn nothing() -> Result<Self, RenderError> {
@@ -120,12 +112,19 @@ pub fn render<M: Machine + Send + Sync>(
         Some(_) => Seen::without_grid(plan, scene.spheres(), camera.eye()),
     };
     rendering.times.build = start.elapsed();
-    clear(&mut rendering.image, camera.size(), scene.background())?;
     let image = &mut rendering.image;
-    let rows = camera.size().width() as usize * BLOCK as usize;
+    if image.size != camera.size() {
+        *image = Image::new(camera.size(), scene.background())?;
+    }
+    let side = match plan.packet {
+        Packet::Block => BLOCK,
+        Packet::Tile { side } => u32::from(side) * BLOCK,
+    };
+    let width = camera.size().width() as usize;
+    let rows = width * side as usize;
     let layers = image.ids.chunks_mut(rows).zip(image.t.chunks_mut(rows)).zip(image.rgba.chunks_mut(rows));
-    let stripes = (0..).step_by(BLOCK as usize).zip(layers);
-    let stripes = Mutex::new(stripes.map(|(y, ((ids, t), rgba))| Stripe { y, ids, t, rgba }));
+    let stripes = (0..).step_by(side as usize).zip(layers);
+    let stripes = Mutex::new(stripes.map(|(y, ((ids, t), rgba))| Stripe { y, width, ids, t, rgba }));
     let next = || stripes.lock().expect("no worker panics while it holds the list").next();
     let work = || {
         let mirrored = match (plan.sharing, known) {
@@ -134,6 +133,16 @@ pub fn render<M: Machine + Send + Sync>(
             _ => None,
         };
         let seen = mirrored.as_ref().unwrap_or(&seen);
+        if let (Packet::Tile { .. }, Some(grid)) = (plan.packet, &seen.grid) {
+            let mut tiles = Tiles::new(m, plan, scene, camera, grid);
+            while let Some(mut stripe) = next() {
+                m.within(
+                    #[inline(always)]
+                    || fill_tiles(&mut tiles, side, camera, &mut stripe),
+                );
+            }
+            return tiles.counts();
+        }
         let mut worker = Worker::default();
         while let Some(mut stripe) = next() {
             m.within(
@@ -156,18 +165,7 @@ pub fn render<M: Machine + Send + Sync>(
     Ok(())
 }
 
-/// Makes all of an image misses before a background, in its own memory if its size is the same.
-fn clear(image: &mut Image, size: Size, [r, g, b]: [u8; 3]) -> Result<(), SizeError> {
-    if image.size != size {
-        *image = Image::new(size, [r, g, b])?;
-        return Ok(());
-    }
-    image.ids.fill(MISS);
-    image.t.fill(f32::INFINITY);
-    image.rgba.fill([r, g, b, 255]);
-    Ok(())
-}
-
+/// Fills a stripe block by block.
 #[inline(always)]
 fn fill<M: Machine>(
     m: M,
@@ -178,77 +176,28 @@ fn fill<M: Machine>(
     stripe: &mut Stripe<'_>,
     worker: &mut Worker,
 ) {
-    let lanes = CameraLanes::new(m, camera);
-    for x in (0..camera.size().width()).step_by(BLOCK as usize) {
-        let (xs, ys) = middles(m, camera, x, stripe.y);
-        let block = lanes.block(m, xs, ys);
-        let owners = known.map(
-            #[inline(always)]
-            |known| known.block(x, stripe.y),
-        );
-        let answers = seen.trace(m, scene.spheres(), &block, owners, worker);
-        write(m, scene, seen, &block, &answers, x as usize, camera.size().width() as usize, stripe);
-    }
-}
-
-/// Rim: colours a block and writes the pixels of it that hit.
-#[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "all of it differs from block to block")]
-fn write<M: Machine>(
-    m: M,
-    scene: &Scene,
-    seen: &Seen,
-    block: &Block<M>,
-    answers: &Answers,
-    x: usize,
-    width: usize,
-    stripe: &mut Stripe<'_>,
-) {
-    let Answers { t, id: ids } = *answers;
-    if ids == [NONE; LANES] {
-        return;
-    }
-    let mut gathered = [[0.0; LANES]; 7];
-    for lane in 0..LANES {
-        if let Some(s) = scene.spheres().get(ids[lane].unsigned_abs() as usize) {
-            let [r, g, b] = s.color.map(f32::from);
-            let values = [s.center[0], s.center[1], s.center[2], s.radius, r, g, b];
-            for (lanes, value) in gathered.iter_mut().zip(values) {
-                lanes[lane] = value;
-            }
+    let (lanes, painter) = (CameraLanes::new(m, camera), Painter::new(m, scene, camera));
+    let rows = stripe.ids.len() / stripe.width;
+    for y in (stripe.y..).step_by(BLOCK as usize).take(rows.div_ceil(BLOCK as usize)) {
+        for x in (0..camera.size().width()).step_by(BLOCK as usize) {
+            let (xs, ys) = middles(m, camera, x, y);
+            let block = lanes.block(m, xs, ys);
+            let owners = known.map(
+                #[inline(always)]
+                |known| known.block(x, y),
+            );
+            let answers = seen.trace(m, scene.spheres(), &block, owners, worker);
+            painter.write(m, block.dir, &answers, [x, y], ALL, stripe);
         }
     }
-    let [cx, cy, cz, radius, r, g, b] = gathered;
-    let (center, color) = ([cx, cy, cz], [r, g, b]);
-    let surface = Surface { center: gather(m, center), radius: m.lanes(radius), color: gather(m, color) };
-    let (eye, light) = (spread(m, seen.eye), spread(m, scene.light()));
-    let rgb = three(
-        shade(m, eye, block.dir, light, m.lanes(t), &surface),
-        #[inline(always)]
-        |channel| m.to_array_i(channel),
-    );
-    for lane in 0..LANES {
-        let column = x + lane % BLOCK as usize;
-        let pixel = lane / BLOCK as usize * width + column;
-        if ids[lane] == NONE || column >= width || pixel >= stripe.ids.len() {
-            continue;
-        }
-        stripe.ids[pixel] = ids[lane].unsigned_abs();
-        stripe.t[pixel] = t[lane];
-        stripe.rgba[pixel] = [to_byte(rgb[0][lane]), to_byte(rgb[1][lane]), to_byte(rgb[2][lane]), 255];
-    }
 }
 
+/// Fills a stripe tile by tile.
 #[inline(always)]
-fn gather<M: Machine>(m: M, lanes: [[f32; LANES]; 3]) -> [M::F; 3] {
-    three(
-        lanes,
-        #[inline(always)]
-        |lanes| m.lanes(lanes),
-    )
-}
-
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255 by rule 4")]
-fn to_byte(channel: i32) -> u8 {
-    channel as u8
+fn fill_tiles<M: Machine>(tiles: &mut Tiles<'_, M>, side: u32, camera: &Camera, stripe: &mut Stripe<'_>) {
+    let y = [stripe.y, stripe.y + u32::try_from(stripe.ids.len() / stripe.width).expect("rows of an image")];
+    let width = camera.size().width();
+    for x in (0..width).step_by(side as usize) {
+        tiles.trace(Rect { x: [x, (x + side).min(width)], y }, stripe);
+    }
 }

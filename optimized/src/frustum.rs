@@ -27,19 +27,36 @@ const PAD: f32 = 16.0 / (1u32 << 24) as f32;
 
 const _: () = assert!(MAX_CELLS.is_multiple_of(LANES));
 
-/// Rays that move most along one axis, in one sense.
-#[derive(Clone, Copy)]
-pub struct Frustum<M: Machine> {
+/// 1 + 2⁻²⁰: more than the roundings of t |d_X| and of a slice's distance.
+pub const BEYOND: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
+
+/// The rays that move most along one axis, in one sense.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Heading {
     /// Major axis (0, 1, 2), then the other two.
     pub order: [usize; 3],
     /// Whether the rays go towards larger coordinates on it.
     pub forward: bool,
+}
+
+/// The rays of a heading whose slopes lie in a range: what bounds a packet.
+#[derive(Clone, Copy)]
+pub struct Frustum<M: Machine> {
+    /// Where they go.
+    pub heading: Heading,
+    /// Lowest and highest slope of the second and the third axis, in every lane.
+    pub slopes: [[M::F; 2]; 2],
+}
+
+/// The rays of a block, bounded.
+#[derive(Clone, Copy)]
+pub struct Bundle<M: Machine> {
+    /// What bounds them.
+    pub frustum: Frustum<M>,
     /// |d_X| of each ray.
     pub speed: M::F,
     /// d_Y/|d_X| and d_Z/|d_X| of each ray.
     pub slope: [M::F; 2],
-    /// Lowest and highest slope of the second and the third axis, in every lane.
-    slopes: [[M::F; 2]; 2],
 }
 
 /// The slices of a grid in the order in which a packet meets them, and what of each it may touch.
@@ -64,50 +81,47 @@ impl Slices {
     }
 }
 
-impl<M: Machine> Frustum<M> {
-    /// The frustum of a block; `None` if its rays do not share a major axis and sense.
-    #[inline(always)]
-    pub fn of_block(m: M, block: &Block<M>) -> Option<Self> {
-        let first = three(
-            block.dir,
-            #[inline(always)]
-            |d| m.to_array(d)[0],
-        );
-        let axis = major(first);
-        let forward = first[axis] > 0.0;
-        let order = [axis, (axis + 1) % 3, (axis + 2) % 3];
-        let [x, y, z] = three(
-            order,
-            #[inline(always)]
-            |i| block.dir[i],
-        );
-        let speed = if forward { x } else { m.neg(x) };
-        let stray = m.or(m.le(speed, m.splat(0.0)), m.or(steeper(m, y, speed), steeper(m, z, speed)));
-        if m.any(stray, Site::Incoherent) {
-            return None;
-        }
-        let slope = [m.div(y, speed), m.div(z, speed)];
-        let slopes = [range(m, slope[0]), range(m, slope[1])];
-        Some(Self { order, forward, speed, slope, slopes })
+impl Heading {
+    /// All six.
+    #[must_use]
+    pub fn all() -> [Self; 6] {
+        [0, 1, 2, 3, 4, 5].map(|i| Self::new(i % 3, i < 3))
     }
 
-    /// Rim: the slopes as plain numbers.
-    #[inline(always)]
-    pub fn slope_arrays(&self, m: M) -> [[f32; 2]; 2] {
-        let [[lo_y, hi_y], [lo_z, hi_z]] = self.slopes;
-        [[m.to_array(lo_y)[0], m.to_array(hi_y)[0]], [m.to_array(lo_z)[0], m.to_array(hi_z)[0]]]
+    /// Along an axis, towards larger coordinates or smaller ones.
+    #[must_use]
+    pub fn new(axis: usize, forward: bool) -> Self {
+        Self { order: [axis, (axis + 1) % 3, (axis + 2) % 3], forward }
     }
 
     /// A vector's components along the major axis, in the rays' sense, and the other two.
     #[inline(always)]
     #[must_use]
-    fn along(&self, v: [f32; 3]) -> [f32; 3] {
+    pub fn along(&self, v: [f32; 3]) -> [f32; 3] {
         let [x, y, z] = three(
             self.order,
             #[inline(always)]
             |i| v[i],
         );
         [if self.forward { x } else { -x }, y, z]
+    }
+
+    /// Kernel: the same of sixteen vectors.
+    #[inline(always)]
+    pub fn along_lanes<M: Machine>(&self, m: M, v: [M::F; 3]) -> [M::F; 3] {
+        let [x, y, z] = three(
+            self.order,
+            #[inline(always)]
+            |i| v[i],
+        );
+        [if self.forward { x } else { m.neg(x) }, y, z]
+    }
+
+    /// Kernel: which rays of those components have this heading.
+    #[inline(always)]
+    pub fn has<M: Machine>(&self, m: M, [speed, y, z]: [M::F; 3]) -> M::B {
+        let stray = m.or(m.le(speed, m.splat(0.0)), m.or(steeper(m, y, speed), steeper(m, z, speed)));
+        m.not(stray)
     }
 
     /// Where a sphere's centre is from the eye, along (A, Y, Z); `f` is eye − centre.
@@ -117,27 +131,64 @@ impl<M: Machine> Frustum<M> {
         self.along([-x, -y, -z])
     }
 
+    /// The index in the grid of the slice that is met as number `s` of `count`.
+    #[inline(always)]
+    #[must_use]
+    pub fn slice_index(&self, count: usize, s: usize) -> usize {
+        if self.forward { s } else { count - 1 - s }
+    }
+}
+
+impl<M: Machine> Bundle<M> {
+    /// The rays of a block; `None` if they do not share a major axis and sense.
+    #[inline(always)]
+    pub fn of_block(m: M, block: &Block<M>) -> Option<Self> {
+        let first = three(
+            block.dir,
+            #[inline(always)]
+            |d| m.to_array(d)[0],
+        );
+        let axis = major(first);
+        let heading = Heading::new(axis, first[axis] > 0.0);
+        let [speed, y, z] = heading.along_lanes(m, block.dir);
+        if m.any(m.not(heading.has(m, [speed, y, z])), Site::Incoherent) {
+            return None;
+        }
+        let slope = [m.div(y, speed), m.div(z, speed)];
+        let slopes = [range(m, slope[0]), range(m, slope[1])];
+        Some(Self { frustum: Frustum { heading, slopes }, speed, slope })
+    }
+}
+
+impl<M: Machine> Frustum<M> {
+    /// Rim: the slopes as plain numbers.
+    #[inline(always)]
+    pub fn slope_arrays(&self, m: M) -> [[f32; 2]; 2] {
+        let [[lo_y, hi_y], [lo_z, hi_z]] = self.slopes;
+        [[m.to_array(lo_y)[0], m.to_array(hi_y)[0]], [m.to_array(lo_z)[0], m.to_array(hi_z)[0]]]
+    }
+
     /// The slices in the order in which the packet meets them.
     #[inline(always)]
     pub fn slices(&self, m: M, eye: [f32; 3], grid: &Grid, margins: Margins) -> Slices {
-        let axis = &grid.axes[self.order[0]];
+        let axis = &grid.axes[self.heading.order[0]];
         let count = axis.n.unsigned_abs() as usize;
         let mut slices =
             Slices { count, first: [[0; MAX_CELLS]; 2], last: [[-1; MAX_CELLS]; 2], far: [-1.0; MAX_CELLS] };
         let mut near = [0.0; MAX_CELLS];
-        let position = eye[self.order[0]];
+        let position = eye[self.heading.order[0]];
         for (s, (near, far)) in near.iter_mut().zip(&mut slices.far).take(count).enumerate() {
-            let index = self.slice_index(count, s);
+            let index = self.heading.slice_index(count, s);
             let (lower, upper) = (axis.planes[index], axis.planes[index + 1]);
             let distances = [lower - position, upper - position];
-            [*near, *far] = if self.forward { distances } else { [-distances[1], -distances[0]] };
+            [*near, *far] = if self.heading.forward { distances } else { [-distances[1], -distances[0]] };
         }
         let farthest = slices.far[count - 1].abs() + grid.widen;
         for start in (0..count).step_by(LANES) {
             let part = start..start + LANES;
             let (near, far) = (part_of(m, &near, start), part_of(m, &slices.far, start));
             for side in 0..2 {
-                let eye = eye[self.order[side + 1]];
+                let eye = eye[self.heading.order[side + 1]];
                 let pad = if margins == Margins::Derived { PAD * (eye.abs() + farthest) } else { 0.0 };
                 let [first, last] = self.rectangle(m, side, eye, grid, near, far, pad);
                 slices.first[side][part.clone()].copy_from_slice(&m.to_array_i(first));
@@ -145,13 +196,6 @@ impl<M: Machine> Frustum<M> {
             }
         }
         slices
-    }
-
-    /// The index in the grid of the slice that is met as number `s` of `count`.
-    #[inline(always)]
-    #[must_use]
-    pub fn slice_index(&self, count: usize, s: usize) -> usize {
-        if self.forward { s } else { count - 1 - s }
     }
 
     /// Kernel: first and last cell on one of the minor axes in slices that reach from `near` to `far`, one slice a lane.
@@ -167,7 +211,7 @@ impl<M: Machine> Frustum<M> {
         far: M::F,
         pad: f32,
     ) -> [M::I; 2] {
-        let axis = &grid.axes[self.order[side + 1]];
+        let axis = &grid.axes[self.heading.order[side + 1]];
         let (zero, widen, eye) = (m.splat(0.0), m.splat(grid.widen), m.splat(eye));
         let (near, far) = (m.sub(near, widen), m.add(far, widen));
         let behind = m.lt(far, zero);

@@ -18,9 +18,10 @@ use crate::machine::{LANES, Machine};
 use crate::plan::{Cells, OnEvent, Plan, Resolution, Voxelizer};
 use crate::queue::{MAX_IDS, Queue, Queues};
 use crate::voxelize::CellBox;
+use contract::Sphere;
 
 /// The most cells on an axis.
-pub const MAX_CELLS: usize = 64;
+pub const MAX_CELLS: usize = 240;
 /// Cells a sphere should have for itself: λ of n = d ∛(λ N / V) (Wald et al. 2006 use 3 to 5).
 const DENSITY: f64 = 4.0;
 
@@ -59,13 +60,16 @@ pub struct Grid {
     /// How far from the packet's rays a cell may be and yet list a sphere that they hit: 0, or the largest reach if
     /// spheres are listed by centre.
     pub widen: f32,
+    /// Spheres that are in no cell: every packet is to meet them. Only by centre, and so large that all packets would have to look as
+    /// far around for their sake.
+    pub large: Vec<u32>,
     storage: Storage,
 }
 
 #[derive(Clone, Debug)]
 enum Storage {
     Queues(Vec<Queue>),
-    Lists { offsets: Vec<u32>, ids: Vec<u32> },
+    Lists { offsets: Vec<u32>, ids: Vec<u32>, spheres: [Vec<f32>; 4] },
 }
 
 impl Bounds {
@@ -172,7 +176,8 @@ impl Grid {
         let widen =
             if by_center { WIDER * balls.iter().map(|ball| ball.radius).fold(0.0, f32::max) } else { 0.0 };
         let whole = whole(&boxes);
-        let mut n = resolution(&plan, &whole, balls)?;
+        let widest = balls.iter().map(|ball| f64::from(ball.radius)).fold(0.0, f64::max) * 2.001;
+        let mut n = resolution(&plan, &whole, balls.len(), widest)?;
         loop {
             let axes = [0, 1, 2].map(|i| Axis::new(m, whole[0][i], whole[1][i], n[i]));
             let cell_boxes: Vec<CellBox> =
@@ -194,7 +199,7 @@ impl Grid {
             }
             if plan.cells == Cells::Queue {
                 match fill_queues(m, &plan, &axes, balls, &cell_boxes, events) {
-                    Ok(queues) => return Ok(Self { axes, widen, storage: Storage::Queues(queues) }),
+                    Ok(queues) => return Ok(Self { axes, widen, large: Vec::new(), storage: Storage::Queues(queues) }),
                     Err(full) => {
                         plan.cells = taken(&plan, &full, plan.cells, Cells::Lists)?;
                         events.push(full);
@@ -202,10 +207,77 @@ impl Grid {
                 }
             }
             if let Some(storage) = fill_lists(&plan, &axes, balls, &cell_boxes) {
-                return Ok(Self { axes, widen, storage });
+                return Ok(Self { axes, widen, large: Vec::new(), storage });
             }
             n = n.map(|n| (n / 2).max(1));
         }
+    }
+
+    /// A grid over the centres of spheres, of which there is at least one, whose reach is their radius.
+    ///
+    /// # Errors
+    /// [`RenderError::Resolution`] for one that is out of range.
+    pub fn by_center<M: Machine>(m: M, plan: &Plan, spheres: &[Sphere]) -> Result<Self, RenderError> {
+        let (whole, large_from) = survey(spheres);
+        let mut widen = 0.0f32;
+        let n = resolution(plan, &whole, spheres.len(), 0.0)?;
+        let axes = [0, 1, 2].map(|i| Axis::new(m, whole[0][i], whole[1][i], n[i]));
+        let strides = strides(&axes);
+        let mut large = Vec::new();
+        let mut offsets = vec![0u32; cells(&axes) + 1];
+        let mut places = Vec::with_capacity(spheres.len().next_multiple_of(LANES));
+        m.within(
+            #[inline(always)]
+            || {
+                for chunk in spheres.chunks(LANES) {
+                    let mut at = [[0.0; LANES]; 3];
+                    for (lane, sphere) in chunk.iter().enumerate() {
+                        for i in 0..3 {
+                            at[i][lane] = sphere.center[i];
+                        }
+                    }
+                    let cell = |i: usize| m.to_array_i(axes[i].cell(m, m.lanes(at[i])));
+                    let [x, y, z] = [cell(0), cell(1), cell(2)];
+                    for lane in 0..LANES {
+                        places.push(index(strides, [x[lane], y[lane], z[lane]]) as u32);
+                    }
+                }
+            },
+        );
+        places.truncate(spheres.len());
+        for ((place, sphere), id) in places.iter_mut().zip(spheres).zip(0..) {
+            if sphere.radius > large_from {
+                large.push(id);
+                *place = u32::MAX;
+            } else {
+                widen = widen.max(sphere.radius);
+                offsets[*place as usize + 1] += 1;
+            }
+        }
+        let mut sum = 0;
+        for offset in &mut offsets {
+            sum += *offset;
+            *offset = sum;
+        }
+        let kept = spheres.len() - large.len();
+        let mut ids = vec![0; kept];
+        let mut rows = [0; 4].map(|_| vec![0.0; kept + LANES]);
+        for ((&place, sphere), id) in places.iter().zip(spheres).zip(0..) {
+            if place != u32::MAX {
+                let next = &mut offsets[place as usize];
+                let at = *next as usize;
+                *next += 1;
+                ids[at] = id;
+                let [x, y, z, r] = &mut rows;
+                (x[at], y[at], z[at], r[at]) =
+                    (sphere.center[0], sphere.center[1], sphere.center[2], sphere.radius);
+            }
+        }
+        // Each offset has moved to the end of its cell, which is the beginning of the next.
+        offsets.rotate_right(1);
+        offsets[0] = 0;
+        let storage = Storage::Lists { offsets, ids, spheres: rows };
+        Ok(Self { axes, widen: WIDER * widen, large, storage })
     }
 
     /// Calls `visit` with each id of a cell. `live` = no makes every cell empty.
@@ -218,12 +290,27 @@ impl Grid {
                 }
             }
             Storage::Queues(_) => {}
-            Storage::Lists { offsets, ids } => {
+            Storage::Lists { offsets, ids, .. } => {
                 let start = offsets[index] as usize;
                 let end = if live { offsets[index + 1] as usize } else { start };
                 for &id in &ids[start..end] {
                     visit(id);
                 }
+            }
+        }
+    }
+
+    /// The spheres that a range of cells lists: ids, and centres and radii, these with as many numbers behind them as there are lanes.
+    #[inline(always)]
+    #[must_use]
+    pub fn row(&self, [first, last]: [usize; 2]) -> (&[u32], [&[f32]; 4]) {
+        match &self.storage {
+            Storage::Queues(_) => todo!(),
+            Storage::Lists { offsets, ids, spheres } => {
+                let (start, end) = (offsets[first] as usize, offsets[last + 1] as usize);
+                let [x, y, z, r] = spheres;
+                let part = start..end + LANES;
+                (&ids[start..end], [&x[part.clone()], &y[part.clone()], &z[part.clone()], &r[part]])
             }
         }
     }
@@ -323,7 +410,14 @@ fn fill_lists(plan: &Plan, axes: &[Axis; 3], balls: &[Bounds], boxes: &[CellBox]
             *next += 1;
         });
     }
-    Some(Storage::Lists { offsets, ids })
+    let spheres = [0, 1, 2, 3].map(|i| {
+        let of = |id: &u32| {
+            let ball = &balls[*id as usize];
+            if i < 3 { ball.center[i] } else { ball.radius }
+        };
+        ids.iter().map(of).chain([0.0; LANES]).collect()
+    });
+    Some(Storage::Lists { offsets, ids, spheres })
 }
 
 /// The cells of up to sixteen boxes.
@@ -352,10 +446,37 @@ fn whole(boxes: &[Bounds]) -> [[f32; 3]; 2] {
     })
 }
 
+/// The box around all centres, and the radius above which a sphere is large.
+fn survey(spheres: &[Sphere]) -> ([[f32; 3]; 2], f32) {
+    let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    // Radii by their exponent.
+    let mut counts = [0u32; 256];
+    for sphere in spheres {
+        for i in 0..3 {
+            let x = sphere.center[i];
+            lo[i] = if x < lo[i] { x } else { lo[i] };
+            hi[i] = if x > hi[i] { x } else { hi[i] };
+        }
+        counts[(sphere.radius.to_bits() >> 23) as usize] += 1;
+    }
+    let few = spheres.len() / 64 + 32;
+    let mut above = 0;
+    let mut from = f32::INFINITY;
+    for exponent in (1..256).rev() {
+        above += counts[exponent] as usize;
+        if above > few {
+            break;
+        }
+        from = f32::from_bits((exponent as u32) << 23);
+    }
+    // Nothing is gained if the others are as large.
+    ([lo, hi], from)
+}
+
 /// Cells on each axis. Chosen ones are cubes, about [`DENSITY`] a sphere; for eight corners they are wider than any
 /// sphere's box.
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "a rule of thumb")]
-fn resolution(plan: &Plan, [lo, hi]: &[[f32; 3]; 2], balls: &[Bounds]) -> Result<[i32; 3], RenderError> {
+fn resolution(plan: &Plan, [lo, hi]: &[[f32; 3]; 2], count: usize, widest: f64) -> Result<[i32; 3], RenderError> {
     let (Resolution::Fixed(limit) | Resolution::UpTo(limit)) = plan.resolution;
     if limit == 0 || usize::from(limit) > MAX_CELLS {
         return Err(RenderError::Resolution { cells: limit });
@@ -366,8 +487,7 @@ fn resolution(plan: &Plan, [lo, hi]: &[[f32; 3]; 2], balls: &[Bounds]) -> Result
     let extent = [0, 1, 2].map(|i| f64::from(hi[i]) - f64::from(lo[i]));
     // An axis without extent (one sphere by centre) has one cell; it counts as one unit in the volume.
     let volume: f64 = extent.iter().filter(|e| **e > 0.0).product();
-    let per_unit = (DENSITY * balls.len() as f64 / volume).cbrt();
-    let widest = balls.iter().map(|ball| f64::from(ball.radius)).fold(0.0, f64::max) * 2.001;
+    let per_unit = (DENSITY * count as f64 / volume).cbrt();
     Ok(extent.map(|e| {
         let n = ((e * per_unit).round() as i32).clamp(1, i32::from(limit));
         if plan.voxelizer == Voxelizer::EightCorners { n.min((e / widest) as i32).max(1) } else { n }

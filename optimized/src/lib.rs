@@ -57,6 +57,10 @@ pub mod integer;
 pub mod exact;
 pub mod settle;
 
+pub mod silhouette;
+pub mod stripe;
+pub mod tile;
+
 pub mod seen;
 
 pub mod shade;

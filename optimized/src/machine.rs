@@ -58,6 +58,9 @@ pub trait Machine: Copy {
     /// Rim: an array from lanes.
     fn to_array_i(self, x: Self::I) -> [i32; LANES];
 
+    /// Rim: bit i is lane i.
+    fn to_bits(self, x: Self::B) -> u32;
+
     /// The same number in every lane.
     fn splat(self, x: f32) -> Self::F;
     /// The same number in every lane.

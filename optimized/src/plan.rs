@@ -44,6 +44,19 @@ pub enum Loop {
     Printed,
 }
 
+/// Which rays go through the grid together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Packet {
+    /// Those of a 4x4 block (the paper).
+    Block,
+    /// Those of a square tile of so many blocks on a side: candidates are gathered once for the tile, and held by their outlines against
+    /// each of its blocks ([`crate::tile`]).
+    Tile {
+        /// Blocks on a side, 1 to 32.
+        side: u8,
+    },
+}
+
 /// What is done with a sphere of a visited cell before sixteen rays are intersected with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Culling {
@@ -115,6 +128,7 @@ pub struct Plan {
     pub voxelizer: Voxelizer,
     pub cells: Cells,
     pub walk: Loop,
+    pub packet: Packet,
     pub culling: Culling,
     pub margins: Margins,
     pub arithmetic: Arithmetic,
@@ -131,6 +145,7 @@ impl Plan {
             voxelizer: Voxelizer::EightCorners,
             cells: Cells::Queue,
             walk: Loop::Flattened,
+            packet: Packet::Block,
             culling: Culling::Planes,
             margins: Margins::None,
             arithmetic: Arithmetic::Rounded(Form::Textbook),
@@ -148,6 +163,7 @@ impl Plan {
             voxelizer: Voxelizer::BoxRange,
             cells: Cells::Lists,
             walk: Loop::Flattened,
+            packet: Packet::Block,
             culling: Culling::Planes,
             margins: Margins::Derived,
             arithmetic: Arithmetic::Rounded(Form::Perpendicular),
@@ -160,7 +176,13 @@ impl Plan {
     /// What a user wants: the exact picture.
     #[must_use]
     pub fn fast() -> Self {
-        Self { arithmetic: Arithmetic::Certified, walk: Loop::Nested, ..Self::safe() }
+        Self {
+            voxelizer: Voxelizer::ByCenter,
+            arithmetic: Arithmetic::Certified,
+            walk: Loop::Nested,
+            packet: Packet::Tile { side: 16 },
+            ..Self::safe()
+        }
     }
 
     /// Whether the plan promises the naive picture of its arithmetic for every scene it does not refuse.
@@ -196,6 +218,10 @@ impl fmt::Display for Plan {
             Margins::None => "no margins",
             Margins::Derived => "derived margins",
         };
+        let packet = match self.packet {
+            Packet::Block => "4x4 blocks".to_owned(),
+            Packet::Tile { side } => format!("tiles of {side}x{side} blocks"),
+        };
         let arithmetic = match self.arithmetic {
             Arithmetic::Rounded(Form::Textbook) => "textbook f32",
             Arithmetic::Rounded(Form::Perpendicular) => "perpendicular f32",
@@ -210,7 +236,7 @@ impl fmt::Display for Plan {
             Sharing::Shared => "one grid",
             Sharing::Mirrored => "a grid for each worker",
         };
-        write!(f, "{voxelizer} into {cells}, {walk}, {culling}, {margins}, {arithmetic}, ")?;
+        write!(f, "{voxelizer} into {cells}, {packet}, {walk}, {culling}, {margins}, {arithmetic}, ")?;
         match self.resolution {
             Resolution::Fixed(n) => write!(f, "{n} cells on an axis, ")?,
             Resolution::UpTo(n) => write!(f, "up to {n} cells on an axis, ")?,

@@ -1,23 +1,20 @@
 //! A frame's scene as seen from its camera: what is made once a frame and read by every packet. Spheres relative to
 //! the eye, their radii for culling and the bounds on their rounding, and the grid. And a packet's way through it.
 
-use crate::bound::{self, Bound};
+use crate::bound::{self, Bound, Rule};
 use crate::camera::Block;
 use crate::certain::{self, Ball, Rays, Side};
 use crate::cull::{self, Planes};
 use crate::event::{Event, Events, RenderError};
-use crate::frustum::{Frustum, Slices};
+use crate::frustum::{BEYOND, Bundle, Heading, Slices};
 use crate::grid::{Bounds, Grid};
 use crate::machine::{LANES, Machine, three};
 use crate::margin;
-use crate::plan::{Arithmetic, Culling, Margins, OnEvent, Plan};
-use crate::settle::{Answers, Question};
-use crate::sphere::{Form, Nearest, Prepared};
+use crate::plan::{Arithmetic, Cells, Culling, Margins, OnEvent, Packet, Plan, Voxelizer};
+use crate::settle::{ALL, Answers, Question};
+use crate::sphere::{Form, NONE, Nearest, Prepared};
 use crate::walk::{Visitor, walk};
 use contract::{Camera, Scene, Sphere};
-
-/// 1 + 2⁻²⁰: more than the roundings of t |d_X| and of a slice's distance.
-const BEYOND: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
 
 /// What all packets of a frame read.
 #[derive(Clone, Debug)]
@@ -95,24 +92,31 @@ impl Seen {
         events: &mut Events,
     ) -> Result<Self, RenderError> {
         let scene = scene.spheres();
-        let mut seen = Self::without_grid(plan, scene, camera.eye());
-        if plan.margins == Margins::Derived && !margin::in_range(scene, camera) {
+        let in_range = plan.margins == Margins::None || margin::in_range(scene, camera);
+        if !in_range {
             events.push(Event::OutOfRange);
             if plan.on_event == OnEvent::Refuse {
                 return Err(RenderError::Refused(Event::OutOfRange));
             }
-        } else if !scene.is_empty() {
-            let ball = |(p, s): (&mut Prepared, &Sphere)| {
-                let reach = margin::reach(plan.margins, plan.arithmetic, p.f, s.radius);
-                p.cull_radius = cull::radius(plan.margins, p.f, reach);
-                match plan.margins {
-                    Margins::None => Bounds::nearest(s.center, reach),
-                    Margins::Derived => Bounds::outward(s.center, reach),
-                }
-            };
-            let balls: Vec<Bounds> = seen.spheres.iter_mut().zip(scene).map(ball).collect();
-            seen.grid = Some(Grid::build(m, &plan, &balls, events)?);
         }
+        if !in_range || scene.is_empty() {
+            return Ok(Self::without_grid(plan, scene, camera.eye()));
+        }
+        if plan.packet != Packet::Block && plan.voxelizer == Voxelizer::ByCenter && plan.arithmetic == Arithmetic::Certified && plan.cells == Cells::Lists {
+            let grid = Some(Grid::by_center(m, &plan, scene)?);
+            return Ok(Self { eye: camera.eye(), plan, spheres: Vec::new(), bounds: Vec::new(), grid });
+        }
+        let mut seen = Self::without_grid(plan, scene, camera.eye());
+        let ball = |(p, s): (&mut Prepared, &Sphere)| {
+            let reach = margin::reach(plan.margins, plan.arithmetic, p.f, s.radius);
+            p.cull_radius = cull::radius(plan.margins, p.f, reach);
+            match plan.margins {
+                Margins::None => Bounds::nearest(s.center, reach),
+                Margins::Derived => Bounds::outward(s.center, reach),
+            }
+        };
+        let balls: Vec<Bounds> = seen.spheres.iter_mut().zip(scene).map(ball).collect();
+        seen.grid = Some(Grid::build(m, &plan, &balls, events)?);
         Ok(seen)
     }
 
@@ -121,7 +125,10 @@ impl Seen {
     pub fn without_grid(plan: Plan, scene: &[Sphere], eye: [f32; 3]) -> Self {
         let bounds = match plan.arithmetic {
             Arithmetic::Rounded(_) => Vec::new(),
-            Arithmetic::Certified => scene.iter().map(|s| bounds(eye, s)).collect(),
+            Arithmetic::Certified => {
+                let rule = Rule::new(bound::NEAREST);
+                scene.iter().map(|s| bounds(&rule, eye, s)).collect()
+            }
         };
         let spheres = scene.iter().map(|s| Prepared::new(eye, s)).collect();
         Self { eye, plan, spheres, bounds, grid: None }
@@ -137,22 +144,22 @@ impl Seen {
         block: &Block<M>,
         known: Option<&[u32]>,
         worker: &mut Worker,
-    ) -> Answers {
-        if let Some(frustum) = Frustum::of_block(m, block) {
-            return self.trace_packet(m, scene, block, &frustum, [0, LANES], known, worker);
+    ) -> Answers<M> {
+        if let Some(bundle) = Bundle::of_block(m, block) {
+            return self.trace_packet(m, scene, block, &bundle, ALL, known, worker);
         }
         // Sixteen times the same ray is a packet with a frustum of its own.
         worker.counts.split_blocks += 1;
         let [x, y, z] = arrays(m, block);
-        let mut answers = Answers::NONE;
+        let (mut t, mut id) = ([f32::INFINITY; LANES], [NONE; LANES]);
         for (lane, ((x, y), z)) in x.into_iter().zip(y).zip(z).enumerate() {
             let ray = Block::new(m, [m.splat(x), m.splat(y), m.splat(z)]);
             // A direction of zero has no major axis, and hits nothing.
-            let Some(frustum) = Frustum::of_block(m, &ray) else { continue };
-            let alone = self.trace_packet(m, scene, &ray, &frustum, [lane, lane + 1], known, worker);
-            (answers.t[lane], answers.id[lane]) = (alone.t[lane], alone.id[lane]);
+            let Some(bundle) = Bundle::of_block(m, &ray) else { continue };
+            let alone = self.trace_packet(m, scene, &ray, &bundle, 1 << lane, known, worker);
+            (t[lane], id[lane]) = (m.to_array(alone.t)[lane], m.to_array_i(alone.id)[lane]);
         }
-        answers
+        Answers { t: m.lanes(t), id: m.lanes_i(id) }
     }
 
     #[inline(always)]
@@ -168,19 +175,19 @@ impl Seen {
         m: M,
         scene: &[Sphere],
         block: &Block<M>,
-        frustum: &Frustum<M>,
-        wanted: [usize; 2],
+        bundle: &Bundle<M>,
+        wanted: u32,
         known: Option<&[u32]>,
         worker: &mut Worker,
-    ) -> Answers {
+    ) -> Answers<M> {
         match self.plan.arithmetic {
             Arithmetic::Rounded(form) => {
-                let rounded = Rounded { form, block, frustum, nearest: Nearest::none(m) };
-                let nearest = self.meet_all(m, frustum, rounded, known, &mut worker.counts).nearest;
-                Answers { t: m.to_array(nearest.t), id: m.to_array_i(nearest.id) }
+                let rounded = Rounded { form, block, bundle, nearest: Nearest::none(m) };
+                let nearest = self.meet_all(m, bundle, rounded, known, &mut worker.counts).nearest;
+                Answers { t: nearest.t, id: nearest.id }
             }
             Arithmetic::Certified => {
-                let rays = Rays::new(m, frustum.slope);
+                let rays = Rays::new(m, bundle.slope);
                 let certified = Certified {
                     rays,
                     bounds: &self.bounds,
@@ -188,7 +195,7 @@ impl Seen {
                     possible: &mut worker.possible,
                 };
                 certified.possible.clear();
-                let nearest = self.meet_all(m, frustum, certified, known, &mut worker.counts).nearest;
+                let nearest = self.meet_all(m, bundle, certified, known, &mut worker.counts).nearest;
                 let question = self.question(m, scene, block);
                 question.settle(m, &nearest, &worker.possible, wanted, &mut worker.counts)
             }
@@ -201,33 +208,34 @@ impl Seen {
     fn meet_all<M: Machine, H: Hits<M>>(
         &self,
         m: M,
-        frustum: &Frustum<M>,
+        bundle: &Bundle<M>,
         mut hits: H,
         known: Option<&[u32]>,
         counts: &mut Counts,
     ) -> H {
+        let heading = bundle.frustum.heading;
         if let Some(ids) = known {
             counts.candidates += ids.len() as u64;
             for &id in ids {
                 let sphere = &self.spheres[id as usize];
-                hits.meet(m, sphere, frustum.towards(sphere.f), id);
+                hits.meet(m, sphere, heading.towards(sphere.f), id);
             }
             return hits;
         }
         let Some(grid) = &self.grid else {
             counts.candidates += self.spheres.len() as u64;
             for (id, sphere) in (0..).zip(&self.spheres) {
-                hits.meet(m, sphere, frustum.towards(sphere.f), id);
+                hits.meet(m, sphere, heading.towards(sphere.f), id);
             }
             return hits;
         };
-        let slices = frustum.slices(m, self.eye, grid, self.plan.margins);
+        let slices = bundle.frustum.slices(m, self.eye, grid, self.plan.margins);
         let planes = match self.plan.culling {
             Culling::None => None,
-            Culling::Planes => Some(Planes::new(m, frustum, self.plan.margins)),
+            Culling::Planes => Some(Planes::new(m, &bundle.frustum, self.plan.margins)),
         };
         let strides = grid.strides();
-        let [x, y, z] = frustum.order;
+        let [x, y, z] = heading.order;
         let stride = [strides[x], strides[y], strides[z]];
         let spheres = &self.spheres;
         let mut meeting = Meeting {
@@ -235,7 +243,7 @@ impl Seen {
             spheres,
             margins: self.plan.margins,
             grid,
-            frustum,
+            heading,
             slices: &slices,
             planes,
             stride,
@@ -250,12 +258,13 @@ impl Seen {
 
 /// The bound of a sphere, and on which side of its surface the eye is, in f64 from f32: each of the two squares is off by less
 /// than 6 · 2⁻⁵³ of itself (see [`crate::double`]).
-fn bounds(eye: [f32; 3], sphere: &Sphere) -> (Bound, Side) {
+fn bounds(rule: &Rule, eye: [f32; 3], sphere: &Sphere) -> (Bound, Side) {
     let f = [0, 1, 2].map(|i| f64::from(eye[i]) - f64::from(sphere.center[i]));
     let r = f64::from(sphere.radius);
     let (ff, rr) = (f[0] * f[0] + f[1] * f[1] + f[2] * f[2], r * r);
     let slack = (ff + rr) / (1u64 << 50) as f64;
-    let bound = Bound::new(bound::NEAREST, f.iter().fold(0.0, |m, x| m.max(x.abs())), r);
+    let farthest = [0, 1, 2].map(|i| (eye[i] - sphere.center[i]).abs().next_up());
+    let bound = rule.bound(farthest.into_iter().fold(0.0, f32::max), sphere.radius);
     let side = if bound == Bound::NONE {
         Side::Unknown
     } else if ff - rr > slack {
@@ -291,7 +300,7 @@ trait Hits<M: Machine> {
 struct Rounded<'a, M: Machine> {
     form: Form,
     block: &'a Block<M>,
-    frustum: &'a Frustum<M>,
+    bundle: &'a Bundle<M>,
     nearest: Nearest<M>,
 }
 
@@ -303,7 +312,7 @@ impl<M: Machine> Hits<M> for Rounded<'_, M> {
 
     #[inline(always)]
     fn reached(&self, m: M) -> M::F {
-        m.mul(self.nearest.t, self.frustum.speed)
+        m.mul(self.nearest.t, self.bundle.speed)
     }
 }
 
@@ -319,7 +328,8 @@ impl<M: Machine> Hits<M> for Certified<'_, M> {
     #[inline(always)]
     fn meet(&mut self, m: M, sphere: &Prepared, center: [f32; 3], id: u32) {
         let (bound, side) = self.bounds[id as usize];
-        if let Some(found) = self.rays.find(m, &Ball { center, rr: sphere.rr, bound, side }) {
+        let all = m.le(m.splat(0.0), m.splat(0.0));
+        if let Some(found) = self.rays.find(m, &Ball { center, rr: sphere.rr, bound, side }, all) {
             self.nearest = self.nearest.meet(m, &found, id.cast_signed());
             self.possible.push(id);
         }
@@ -337,7 +347,7 @@ struct Meeting<'a, M: Machine, H> {
     spheres: &'a [Prepared],
     margins: Margins,
     grid: &'a Grid,
-    frustum: &'a Frustum<M>,
+    heading: Heading,
     slices: &'a Slices,
     planes: Option<Planes<M>>,
     stride: [usize; 3],
@@ -348,7 +358,7 @@ struct Meeting<'a, M: Machine, H> {
 impl<M: Machine, H: Hits<M>> Visitor<M> for Meeting<'_, M, H> {
     #[inline(always)]
     fn visit(&mut self, slice: usize, j: i32, k: i32, live: bool) {
-        let i = self.frustum.slice_index(self.slices.count, slice);
+        let i = self.heading.slice_index(self.slices.count, slice);
         let [x, y, z] = self.stride;
         let index = i * x + j.unsigned_abs() as usize * y + k.unsigned_abs() as usize * z;
         self.counts.cells += u64::from(live);
@@ -380,7 +390,7 @@ impl<M: Machine, H: Hits<M>> Meeting<'_, M, H> {
         let m = self.m;
         let sphere = &self.spheres[id as usize];
         self.counts.candidates += 1;
-        let center = self.frustum.towards(sphere.f);
+        let center = self.heading.towards(sphere.f);
         if let Some(planes) = &self.planes {
             let center = [m.splat(center[0]), m.splat(center[1]), m.splat(center[2])];
             if planes.cull(m, center, m.splat(sphere.cull_radius)) {

@@ -9,7 +9,7 @@
 //! 3. Where f64 does not know which sphere or which f32, integers do ([`crate::exact`]).
 
 use crate::certain::Nearest;
-use crate::double::{self, Answer};
+use crate::double::{self, Answer, Apart, Directions};
 use crate::exact;
 use crate::machine::{LANES, Machine};
 use crate::seen::Counts;
@@ -28,70 +28,107 @@ pub struct Question<'a> {
 }
 
 /// t and id of each ray; +∞ and [`NONE`] for a miss.
-#[derive(Clone, Copy, Debug)]
-pub struct Answers {
+#[derive(Clone, Copy)]
+pub struct Answers<M: Machine> {
     /// Correctly rounded.
-    pub t: [f32; LANES],
+    pub t: M::F,
     /// Exact.
-    pub id: [i32; LANES],
+    pub id: M::I,
 }
 
-impl Answers {
+impl<M: Machine> Answers<M> {
     /// All miss.
-    pub const NONE: Self = Self { t: [f32::INFINITY; LANES], id: [NONE; LANES] };
+    #[inline(always)]
+    pub fn none(m: M) -> Self {
+        Self { t: m.splat(f32::INFINITY), id: m.splat_i(NONE) }
+    }
+}
+
+/// All lanes.
+pub const ALL: u32 = (1 << LANES) - 1;
+
+/// Kernel: the lanes that hold that id.
+#[inline(always)]
+pub fn same<M: Machine>(m: M, ids: M::I, id: i32) -> M::B {
+    let id = m.splat_i(id);
+    m.not(m.or(m.lt_i(ids, id), m.lt_i(id, ids)))
 }
 
 impl Question<'_> {
-    /// Settles the lanes `from..to`; the others stay misses.
+    /// Settles the lanes whose bits are set in `wanted`; the others stay misses.
     #[inline(always)]
     pub fn settle<M: Machine>(
         &self,
         m: M,
         nearest: &Nearest<M>,
         candidates: &[u32],
-        [from, to]: [usize; 2],
+        wanted: u32,
         counts: &mut Counts,
-    ) -> Answers {
-        let mut answers = Answers { id: m.to_array_i(nearest.id), ..Answers::NONE };
-        let (one, zero) = (m.splat_i(1), m.splat_i(0));
-        let marked = m.to_array_i(m.select_i(nearest.marked(m), one, zero));
-        counts.lanes += (to - from) as u64;
-        let rounded = self.round(&answers.id);
-        for lane in 0..LANES {
-            if lane < from || lane >= to {
-                answers.id[lane] = NONE;
-            } else if marked[lane] != 0 {
-                counts.asked_f64 += 1;
-                (answers.t[lane], answers.id[lane]) = self.by_f64(lane, candidates, counts);
-            } else if answers.id[lane] != NONE {
-                let [t, above] = [rounded[0][lane], rounded[1][lane]];
-                let id = answers.id[lane].unsigned_abs();
-                let certain = t.to_bits() == above.to_bits();
-                answers.t[lane] = if certain { t } else { self.round_exactly(lane, id, counts) };
+    ) -> Answers<M> {
+        let mut answers = Answers::none(m);
+        counts.lanes += u64::from(wanted.count_ones());
+        let marked = m.to_bits(nearest.marked(m)) & wanted;
+        let mut unsettled = marked;
+        let mut rest = m.to_bits(m.lt_i(nearest.id, m.splat_i(NONE))) & wanted & !marked;
+        if rest != 0 {
+            let (rays, ids) = (Directions::new(&self.dir), m.to_array_i(nearest.id));
+            while rest != 0 {
+                let id = ids[rest.trailing_zeros() as usize];
+                let same = same(m, nearest.id, id);
+                if let Some(apart) = Apart::new(self.eye, &self.spheres[id.unsigned_abs() as usize]) {
+                    let [lo, hi] = apart.ends(&rays);
+                    let [lo, hi] = [m.lanes(lo), m.lanes(hi)];
+                    unsettled |= rest & m.to_bits(m.and(same, m.lt(lo, hi)));
+                    answers.t = m.select(same, lo, answers.t);
+                } else {
+                    unsettled |= rest & m.to_bits(same);
+                }
+                answers.id = m.select_i(same, m.splat_i(id), answers.id);
+                rest &= !m.to_bits(same);
             }
+        }
+        if unsettled != 0 || wanted != ALL {
+            self.finish(m, nearest, marked, unsettled, wanted, candidates, &mut answers, counts);
         }
         answers
     }
 
-    /// Lower and upper end of the t of the spheres of those ids, one a lane, rounded to f32; anything where there is none.
-    /// Gathered first, so that what follows are straight loops, which become vectors.
-    #[inline(always)]
-    fn round(&self, ids: &[i32; LANES]) -> [[f32; LANES]; 2] {
-        let (mut center, mut radius) = ([[0.0; LANES]; 3], [1.0; LANES]);
+    /// Settles what is left, lane by lane, and makes misses of what is not wanted.
+    #[inline(never)]
+    #[allow(clippy::too_many_arguments, reason = "the state of `settle`")]
+    fn finish<M: Machine>(
+        &self,
+        m: M,
+        nearest: &Nearest<M>,
+        marked: u32,
+        unsettled: u32,
+        wanted: u32,
+        candidates: &[u32],
+        answers: &mut Answers<M>,
+        counts: &mut Counts,
+    ) {
+        let (mut t, mut id) = (m.to_array(answers.t), m.to_array_i(answers.id));
+        let nearest = m.to_array_i(nearest.id);
         for lane in 0..LANES {
-            if let Some(sphere) = self.spheres.get(ids[lane].unsigned_abs() as usize) {
-                (center[0][lane], center[1][lane]) = (sphere.center[0], sphere.center[1]);
-                (center[2][lane], radius[lane]) = (sphere.center[2], sphere.radius);
+            let has = |bits: u32| bits >> lane & 1 != 0;
+            if has(marked) {
+                counts.asked_f64 += 1;
+                (t[lane], id[lane]) = self.by_f64(lane, candidates, counts);
+            } else if has(unsettled) {
+                t[lane] = self.root_of(lane, nearest[lane].unsigned_abs(), counts);
+            } else if !has(wanted) {
+                (t[lane], id[lane]) = (f32::INFINITY, NONE);
             }
         }
-        let mut ends = [[0.0; LANES]; 2];
-        for lane in 0..LANES {
-            let center = [center[0][lane], center[1][lane], center[2][lane]];
-            let root = double::root(self.eye, self.direction(lane), center, radius[lane]);
-            let [lo, hi] = root.ends();
-            (ends[0][lane], ends[1][lane]) = (lo, hi);
-        }
-        ends
+        *answers = Answers { t: m.lanes(t), id: m.lanes_i(id) };
+    }
+
+    /// The t of a sphere that is certainly hit.
+    #[cold]
+    fn root_of(&self, lane: usize, id: u32, counts: &mut Counts) -> f32 {
+        let sphere = &self.spheres[id as usize];
+        let [t, above] = double::root(self.eye, self.direction(lane), sphere.center, sphere.radius).ends();
+        if t.to_bits() == above.to_bits() { t } else { self.round_exactly(lane, id, counts) }
     }
 
     #[inline(always)]
@@ -100,6 +137,7 @@ impl Question<'_> {
     }
 
     /// The nearest of the candidates, which may hold a sphere more than once.
+    #[cold]
     fn by_f64(&self, lane: usize, candidates: &[u32], counts: &mut Counts) -> (f32, i32) {
         let (eye, dir) = (self.eye, self.direction(lane));
         let ask = |&id: &u32| match double::ask(eye, dir, &self.spheres[id as usize]) {
@@ -117,11 +155,7 @@ impl Question<'_> {
         let sphere = &self.spheres[lowest as usize];
         let same = |other: &Sphere| (other.center, other.radius) == (sphere.center, sphere.radius);
         if hi.is_finite() && rest.clone().all(|&(id, _)| same(&self.spheres[id as usize])) {
-            let root = double::root(eye, dir, sphere.center, sphere.radius);
-            let [t, above] = root.ends();
-            let certain = t.to_bits() == above.to_bits();
-            let t = if certain { t } else { self.round_exactly(lane, lowest, counts) };
-            return (t, lowest.cast_signed());
+            return (self.root_of(lane, lowest, counts), lowest.cast_signed());
         }
         counts.asked_integers += 1;
         let found = exact::nearest(eye, dir, rest.map(|&(id, _)| (id, &self.spheres[id as usize])));

@@ -6,7 +6,7 @@
 //! integers; only the ends of a root are compared in f64, 2⁻⁴⁰ of it being granted.
 
 use crate::small::{Mode, Small};
-use optimized::bound::Bound;
+use optimized::bound::{Bound, Rule};
 use optimized::certain::{Ball, Rays, Side};
 use optimized::machine::{LANES, Machine};
 use rand::{Rng, RngExt};
@@ -59,8 +59,8 @@ impl std::ops::Add for Said {
 pub struct Trial<M> {
     /// The machine; every whole number given must be one of its floats.
     pub machine: M,
-    /// The bound's unit roundoff.
-    pub unit: f64,
+    /// The bounds of its arithmetic.
+    pub rule: Rule,
     /// What the bound is multiplied by.
     pub factor: f32,
 }
@@ -87,8 +87,8 @@ impl<M: Machine> Trial<M> {
         let radius = m.splat(float(ball.radius));
         let rr = m.to_array(m.mul(radius, radius))[0];
         let farthest = ball.center.iter().map(|c| c.unsigned_abs()).max().unwrap_or(0);
-        #[allow(clippy::cast_precision_loss, reason = "below 2^53")]
-        let bound = Bound::new(self.unit, farthest as f64, ball.radius as f64);
+        #[allow(clippy::cast_precision_loss, reason = "below 2^24")]
+        let bound = self.rule.bound(farthest as f32, ball.radius as f32);
         let bound = Bound {
             hit_above: bound.hit_above * self.factor,
             miss_below: bound.miss_below * self.factor,
@@ -99,7 +99,7 @@ impl<M: Machine> Trial<M> {
             1.. => Side::Outside,
             _ => Side::Inside,
         };
-        let found = rays.find(m, &Ball { center, rr, bound, side });
+        let found = rays.find(m, &Ball { center, rr, bound, side }, m.le(m.splat(0.0), m.splat(0.0)));
         let (one, zero) = (m.splat_i(1), m.splat_i(0));
         let yes = |mask| m.to_array_i(m.select_i(mask, one, zero)).map(|x| x == 1);
         let all = [0.0; LANES];

@@ -72,6 +72,9 @@ impl Machine for Small {
     fn to_array_i(self, x: Self::I) -> [i32; LANES] {
         x
     }
+    fn to_bits(self, x: Self::B) -> u32 {
+        Scalar.to_bits(x)
+    }
     fn splat(self, x: f32) -> Self::F {
         [x; LANES]
     }

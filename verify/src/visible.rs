@@ -8,7 +8,7 @@ use contract::{Camera, Scene, Sphere};
 use dashu_int::IBig;
 use optimized::camera::{BLOCK, Block, CameraLanes, middles};
 use optimized::cull::{self, Planes};
-use optimized::frustum::{Frustum, Slices};
+use optimized::frustum::{Bundle, Frustum, Slices};
 use optimized::grid::{Axis, Grid};
 use optimized::host::Scalar;
 use optimized::machine::LANES;
@@ -102,12 +102,12 @@ fn for_each_ray(
             let block = lanes.block(m, xs, ys);
             // Rays without a common axis are packets of their own.
             let single = |lane: usize| (Block::new(m, block.dir.map(|d| [d[lane]; LANES])), vec![lane]);
-            let packets: Vec<(Block<Scalar>, Vec<usize>)> = match Frustum::of_block(m, &block) {
+            let packets: Vec<(Block<Scalar>, Vec<usize>)> = match Bundle::of_block(m, &block) {
                 Some(_) => vec![(block, (0..LANES).collect())],
                 None => (0..LANES).map(single).collect(),
             };
             for (packet, lanes) in packets {
-                let Some(frustum) = Frustum::of_block(m, &packet) else { continue };
+                let Some(Bundle { frustum, .. }) = Bundle::of_block(m, &packet) else { continue };
                 let slices = frustum.slices(m, seen.eye, grid, seen.plan.margins);
                 for lane in lanes {
                     let ray = Ray { eye: seen.eye, dir: packet.dir.map(|d| d[lane]) };
@@ -183,8 +183,8 @@ impl Packet<'_> {
 
     /// Whether the walk comes to a cell.
     fn visits(&self, cell: [usize; 3]) -> Result<(), String> {
-        let [i, j, k] = self.frustum.order.map(|axis| cell[axis]);
-        let slice = self.frustum.slice_index(self.slices.count, i);
+        let [i, j, k] = self.frustum.heading.order.map(|axis| cell[axis]);
+        let slice = self.frustum.heading.slice_index(self.slices.count, i);
         let [first, last] = [&self.slices.first, &self.slices.last];
         let range = |side: usize| first[side][slice]..=last[side][slice];
         let within = |side: usize, x: usize| i32::try_from(x).is_ok_and(|x| range(side).contains(&x));
@@ -200,7 +200,7 @@ impl Packet<'_> {
 
     /// Whether culling drops a ball, given by eye − centre.
     fn culls(&self, f: [f32; 3], radius: f32) -> bool {
-        let center = self.frustum.towards(f).map(|x| [x; LANES]);
+        let center = self.frustum.heading.towards(f).map(|x| [x; LANES]);
         Planes::new(Scalar, self.frustum, self.seen.plan.margins).cull(Scalar, center, [radius; LANES])
     }
 
@@ -249,7 +249,7 @@ impl Packet<'_> {
             self.check_center(&point, rng).or_else(|why| say(&why))?;
 
             // A ball beside the point, sideways on a minor axis, whose surface goes through it.
-            let side = self.frustum.order[rng.random_range(1..3)];
+            let side = self.frustum.heading.order[rng.random_range(1..3)];
             let distance = rng.random_range(-1.0f32..1.0) * 10f32.powi(rng.random_range(-6..2)) * t;
             let near: [f32; 3] = std::array::from_fn(|i| ray.eye[i] + t * ray.dir[i]);
             let center: [f32; 3] =

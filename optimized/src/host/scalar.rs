@@ -29,6 +29,10 @@ impl Machine for Scalar {
         x
     }
     #[inline(always)]
+    fn to_bits(self, x: Self::B) -> u32 {
+        (0..LANES).map(|i| u32::from(x[i]) << i).sum()
+    }
+    #[inline(always)]
     fn splat(self, x: f32) -> Self::F {
         [x; LANES]
     }

@@ -55,6 +55,11 @@ impl<S: Simd> Machine for Wide<S> {
         x.into()
     }
     #[inline(always)]
+    #[allow(clippy::cast_possible_truncation, reason = "sixteen bits")]
+    fn to_bits(self, x: Self::B) -> u32 {
+        self.0.to_bitmask_mask32x16(x) as u32
+    }
+    #[inline(always)]
     fn splat(self, x: f32) -> Self::F {
         self.0.splat_f32x16(x)
     }

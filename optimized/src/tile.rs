@@ -1,0 +1,712 @@
+//! A tile of blocks: its candidates are gathered once by a walk through the grid with the tile's frustum, and held by their outlines
+//! against each of its blocks.
+
+use crate::bound::{self, Rule};
+use crate::camera::{BLOCK, CameraLanes, spread};
+use crate::certain::{Ball, Nearest, Rays, Side};
+use crate::cull;
+use crate::frustum::{BEYOND, Frustum, Heading, Slices};
+use crate::grid::Grid;
+use crate::machine::{LANES, Machine, Site, three};
+use crate::plan::Plan;
+use crate::seen::Counts;
+use crate::settle::{ALL, Question};
+use crate::silhouette::{Outline, overlap};
+use crate::stripe::{Painter, Stripe};
+use contract::{Camera, Scene, Sphere};
+
+/// Candidates after which a tile's blocks are looked at before its walk goes on.
+const ROUND: usize = 256;
+/// Blocks on a side of a patch.
+const PATCH: u32 = 8;
+
+/// Pixels, from and to.
+#[derive(Clone, Copy, Debug)]
+pub struct Rect {
+    /// Columns.
+    pub x: [u32; 2],
+    /// Rows.
+    pub y: [u32; 2],
+}
+
+impl Rect {
+    /// Squares of that side in a row, and rows of them.
+    #[inline(always)]
+    fn squares(&self, side: u32) -> [u32; 2] {
+        [(self.x[1] - self.x[0]).div_ceil(side), (self.y[1] - self.y[0]).div_ceil(side)]
+    }
+
+    /// The part of it that is square number (i, j) of that side.
+    #[inline(always)]
+    fn square(&self, side: u32, [i, j]: [u32; 2]) -> Self {
+        let (x, y) = (self.x[0] + i * side, self.y[0] + j * side);
+        Self { x: [x, (x + side).min(self.x[1])], y: [y, (y + side).min(self.y[1])] }
+    }
+}
+
+/// Outlines, and how near what they belong to can be.
+#[derive(Clone, Debug, Default)]
+struct Outlines {
+    lo: [Vec<f32>; 2],
+    hi: [Vec<f32>; 2],
+    near: Vec<f32>,
+}
+
+/// The spheres a tile may see.
+#[derive(Clone, Debug, Default)]
+struct Candidates {
+    balls: Vec<Ball>,
+    ids: Vec<u32>,
+    outlines: Outlines,
+}
+
+/// Of these, what a patch may see in a round.
+#[derive(Clone, Debug, Default)]
+struct Few {
+    outlines: Outlines,
+    /// Which candidates.
+    index: Vec<u32>,
+    /// Of each sixteen, the nearest of these and all later ones.
+    nearest: Vec<f32>,
+}
+
+/// Ranges of slopes of many rectangles.
+#[derive(Clone, Debug, Default)]
+struct Ranges([[Vec<f32>; 2]; 2]);
+
+/// What all tiles of a frame read.
+#[derive(Clone, Copy)]
+struct Look<'a, M: Machine> {
+    m: M,
+    plan: Plan,
+    scene: &'a Scene,
+    camera: &'a Camera,
+    grid: &'a Grid,
+    lanes: CameraLanes<M>,
+    painter: Painter<'a, M>,
+    rule: Rule,
+    /// More than the rounding of any direction, in any component.
+    slack: f32,
+}
+
+/// A worker's tiles.
+pub struct Tiles<'a, M: Machine> {
+    look: Look<'a, M>,
+    work: Work<M>,
+}
+
+/// What is made for a tile, kept for its memory.
+struct Work<M: Machine> {
+    counts: Counts,
+    candidates: Candidates,
+    few: Vec<Few>,
+    blocks: Ranges,
+    patches: Ranges,
+    nearest: Vec<Nearest<M>>,
+    /// Blocks that have met a sphere.
+    touched: Vec<bool>,
+    /// Blocks that are finished.
+    closed: Vec<bool>,
+    /// Lanes that are written.
+    done: Vec<u32>,
+    possible: Vec<u32>,
+}
+
+impl<'a, M: Machine> Tiles<'a, M> {
+    /// For a frame.
+    #[inline(always)]
+    pub fn new(m: M, plan: Plan, scene: &'a Scene, camera: &'a Camera, grid: &'a Grid) -> Self {
+        let [w, h] = [camera.size().width() as f32, camera.size().height() as f32];
+        let mut slack = 0.0f32;
+        for i in 0..3 {
+            let [c, u, v] = [camera.corner()[i].abs(), camera.du()[i].abs(), camera.dv()[i].abs()];
+            slack = slack.max(c + w * u + h * v);
+        }
+        let look = Look {
+            m,
+            plan,
+            scene,
+            camera,
+            grid,
+            lanes: CameraLanes::new(m, camera),
+            painter: Painter::new(m, scene, camera),
+            rule: Rule::new(bound::NEAREST),
+            slack: slack * (8.0 / (1u32 << 24) as f32),
+        };
+        let work = Work {
+            counts: Counts::default(),
+            candidates: Candidates::default(),
+            few: Vec::new(),
+            blocks: Ranges::default(),
+            patches: Ranges::default(),
+            nearest: Vec::new(),
+            touched: Vec::new(),
+            closed: Vec::new(),
+            done: Vec::new(),
+            possible: Vec::new(),
+        };
+        Self { look, work }
+    }
+
+    /// Traces a tile.
+    #[inline(always)]
+    pub fn trace(&mut self, tile: Rect, stripe: &mut Stripe<'_>) {
+        self.work.trace(&self.look, tile, stripe);
+    }
+
+    /// What they cost.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        self.work.counts
+    }
+}
+
+impl<M: Machine> Work<M> {
+    #[inline(always)]
+    fn trace(&mut self, look: &Look<'_, M>, tile: Rect, stripe: &mut Stripe<'_>) {
+        let corners = look.corners(tile);
+        let [columns, rows] = tile.squares(BLOCK);
+        let blocks = (columns * rows) as usize;
+        let slack = 2.0 * look.slack;
+        self.done.clear();
+        self.done.resize(blocks, 0);
+        for heading in Heading::all() {
+            let mut along = corners;
+            let (mut pure, mut any) = (true, [false; 4]);
+            for corner in &mut along {
+                *corner = heading.along(*corner);
+                let [a, y, z] = *corner;
+                for (any, excess) in any.iter_mut().zip([a - y, a + y, a - z, a + z]) {
+                    pure &= excess > slack;
+                    *any |= excess >= -slack;
+                }
+            }
+            // Where all corners are steeper to the same side, so are the rays between them.
+            if any == [true; 4] {
+                self.pass(look, heading, &along, tile, pure, stripe);
+            }
+            if pure {
+                return;
+            }
+        }
+        for j in 0..rows {
+            for i in 0..columns {
+                let left = ALL & !self.done[(j * columns + i) as usize];
+                if left != 0 {
+                    look.painter.miss([tile.x[0] + i * BLOCK, tile.y[0] + j * BLOCK], left, stripe);
+                }
+            }
+        }
+    }
+
+    /// The rays of a tile that have a heading; `pure`: all of them have.
+    #[inline(always)]
+    fn pass(
+        &mut self,
+        look: &Look<'_, M>,
+        heading: Heading,
+        corners: &[[f32; 3]; 4],
+        tile: Rect,
+        pure: bool,
+        stripe: &mut Stripe<'_>,
+    ) {
+        let m = look.m;
+        let [p, q, r, s] = *corners;
+        let range = look.range([spread(m, p), spread(m, q), spread(m, r), spread(m, s)]);
+        let slices =
+            Frustum { heading, slopes: range }.slices(m, look.camera.eye(), look.grid, look.plan.margins);
+        let strides = look.grid.strides();
+        let [i, j, k] = heading.order;
+        let stride = [strides[i], strides[j], strides[k]];
+        look.ranges(heading, tile, BLOCK, &mut self.blocks);
+        look.ranges(heading, tile, BLOCK * PATCH, &mut self.patches);
+        let [columns, rows] = tile.squares(BLOCK);
+        let blocks = (columns * rows) as usize;
+        if self.nearest.len() < blocks {
+            self.nearest.resize(blocks, Nearest::none(m));
+        }
+        for flags in [&mut self.touched, &mut self.closed] {
+            flags.clear();
+            flags.resize(blocks, false);
+        }
+        self.candidates.clear();
+        self.gather_large(look, heading, range);
+        let (mut slice, mut from) = (0, 0);
+        loop {
+            while slice < slices.count && self.candidates.ids.len() < from + ROUND {
+                self.gather_slice(look, heading, range, &slices, slice, stride);
+                slice += 1;
+            }
+            self.candidates.outlines.pad();
+            let all = slice >= slices.count;
+            let round = Round { heading, pure, from, all, end: slices.far[slice.max(1) - 1] };
+            let open = self.round(look, round, tile, stripe);
+            if all || open == 0 {
+                return;
+            }
+            self.candidates.trim();
+            from = self.candidates.ids.len();
+        }
+    }
+
+    /// Takes the spheres of a slice's cells that the tile may see.
+    #[inline(always)]
+    fn gather_slice(
+        &mut self,
+        look: &Look<'_, M>,
+        heading: Heading,
+        range: [[M::F; 2]; 2],
+        slices: &Slices,
+        slice: usize,
+        stride: [usize; 3],
+    ) {
+        let start = heading.slice_index(slices.count, slice) * stride[0];
+        let [first_k, last_k] = [slices.first[1][slice], slices.last[1][slice]];
+        if last_k < first_k {
+            return;
+        }
+        let [first_k, last_k] = [first_k.unsigned_abs() as usize, last_k.unsigned_abs() as usize];
+        for j in slices.first[0][slice]..=slices.last[0][slice] {
+            let row = start + j.unsigned_abs() as usize * stride[1];
+            self.counts.cells += (last_k - first_k + 1) as u64;
+            if stride[2] == 1 {
+                self.gather(look, heading, range, [row + first_k, row + last_k]);
+            } else {
+                for k in first_k..=last_k {
+                    self.gather(look, heading, range, [row + k * stride[2]; 2]);
+                }
+            }
+        }
+    }
+
+    /// Shows the candidates of a round to the blocks that are open; how many of these are so still. Blocks are taken row by row over
+    /// all patches, since the image is written so.
+    #[inline(always)]
+    fn round(&mut self, look: &Look<'_, M>, round: Round, tile: Rect, stripe: &mut Stripe<'_>) -> usize {
+        let [columns, rows] = tile.squares(BLOCK);
+        let [across, down] = tile.squares(BLOCK * PATCH);
+        let mut few = std::mem::take(&mut self.few);
+        few.resize_with(across as usize, Few::default);
+        let mut open = 0;
+        for j in 0..down {
+            for (few, i) in few.iter_mut().zip(0..) {
+                let range = self.patches.get(look.m, (j * across + i) as usize);
+                few.take(look.m, &self.candidates, round.from, range);
+            }
+            for row in j * PATCH..((j + 1) * PATCH).min(rows) {
+                for column in 0..columns {
+                    let at = (row * columns + column) as usize;
+                    if self.closed[at] {
+                        continue;
+                    }
+                    let corner = [tile.x[0] + column * BLOCK, tile.y[0] + row * BLOCK];
+                    let few = &few[(column / PATCH) as usize];
+                    self.closed[at] = self.block(look, round, few, tile, corner, at, stripe);
+                    open += usize::from(!self.closed[at]);
+                }
+            }
+        }
+        self.few = few;
+        open
+    }
+
+    /// Meets the candidates of a round; whether the block is finished.
+    #[inline(always)]
+    fn block(
+        &mut self,
+        look: &Look<'_, M>,
+        round: Round,
+        few: &Few,
+        tile: Rect,
+        corner: [u32; 2],
+        at: usize,
+        stripe: &mut Stripe<'_>,
+    ) -> bool {
+        let (m, heading) = (look.m, round.heading);
+        let range = self.blocks.get(m, at);
+        let count = few.index.len();
+        let (mut chunk, mut bits) = (0, 0);
+        while chunk < count {
+            bits = few.outlines.overlapping(m, chunk, range);
+            if bits != 0 {
+                break;
+            }
+            chunk += LANES;
+        }
+        if bits == 0 && !self.touched[at] {
+            if round.all && round.pure {
+                look.painter.miss(corner, ALL, stripe);
+            }
+            return round.all;
+        }
+        let mut dir = look.directions(tile, corner);
+        let mut wanted = ALL;
+        if !round.pure {
+            let own = heading.has(m, heading.along_lanes(m, dir));
+            wanted = m.to_bits(own) & !self.done[at];
+            if wanted == 0 {
+                return true;
+            }
+            let lane = wanted.trailing_zeros() as usize;
+            dir = three(
+                dir,
+                #[inline(always)]
+                |d| m.select(own, d, m.splat(m.to_array(d)[lane])),
+            );
+        }
+        let [a, sy, sz] = heading.along_lanes(m, dir);
+        let rays = Rays::new(m, [m.div(sy, a), m.div(sz, a)]);
+        let mut nearest = if self.touched[at] { self.nearest[at] } else { Nearest::none(m) };
+        while chunk < count {
+            if bits != 0 {
+                let near = m.splat(few.nearest[chunk / LANES]);
+                if !m.any(m.le(near, nearest.hi), Site::Unfinished) {
+                    break;
+                }
+            }
+            while bits != 0 {
+                let i = chunk + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                let index = few.index[i] as usize;
+                let ball = &self.candidates.balls[index];
+                let ahead = m.le(m.splat(few.outlines.near[i]), nearest.hi);
+                if let Some(found) = rays.find(m, ball, ahead) {
+                    nearest = nearest.meet(m, &found, self.candidates.ids[index].cast_signed());
+                }
+            }
+            chunk += LANES;
+            if chunk < count {
+                bits = few.outlines.overlapping(m, chunk, range);
+            }
+        }
+        let finished = round.all || {
+            let widen = look.grid.widen * BEYOND;
+            let reached = m.add(m.mul(nearest.hi, m.splat(BEYOND)), m.splat(widen));
+            !m.any(m.not(m.le(reached, m.splat(round.end))), Site::Unfinished)
+        };
+        if !finished {
+            (self.nearest[at], self.touched[at]) = (nearest, true);
+            return false;
+        }
+        if m.to_bits(nearest.marked(m)) & wanted != 0 {
+            self.candidates.overlapping(m, range, &mut self.possible);
+        }
+        self.done[at] |= wanted;
+        let dirs = three(
+            dir,
+            #[inline(always)]
+            |d| m.to_array(d),
+        );
+        let question = Question { eye: look.camera.eye(), dir: dirs, spheres: look.scene.spheres() };
+        let answers = question.settle(m, &nearest, &self.possible, wanted, &mut self.counts);
+        look.painter.write(m, dir, &answers, corner, wanted, stripe);
+        true
+    }
+}
+
+/// What a tile's blocks are shown.
+#[derive(Clone, Copy)]
+struct Round {
+    heading: Heading,
+    pure: bool,
+    /// The first candidate that is new.
+    from: usize,
+    /// No others will come;
+    all: bool,
+    /// or none that is nearer along the major axis, but for the grid's widening.
+    end: f32,
+}
+
+impl<M: Machine> Look<'_, M> {
+    /// Directions through the pixels at the corners of a rectangle, as the contract gives them.
+    fn corners(&self, rect: Rect) -> [[f32; 3]; 4] {
+        let [corner, du, dv] = [self.camera.corner(), self.camera.du(), self.camera.dv()];
+        let middle = |[from, to]: [u32; 2]| [from as f32 + 0.5, to as f32 - 0.5];
+        let (x, y) = (middle(rect.x), middle(rect.y));
+        let through = |x: f32, y: f32| [0, 1, 2].map(|i| (corner[i] + x * du[i]) + y * dv[i]);
+        [through(x[0], y[0]), through(x[1], y[0]), through(x[0], y[1]), through(x[1], y[1])]
+    }
+
+    /// Directions of a block's rays; pixels beyond the tile repeat its last column or row.
+    #[inline(always)]
+    fn directions(&self, tile: Rect, [x, y]: [u32; 2]) -> [M::F; 3] {
+        let m = self.m;
+        const X: [f32; LANES] =
+            [0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5, 0.5, 1.5, 2.5, 3.5];
+        const Y: [f32; LANES] =
+            [0.5, 0.5, 0.5, 0.5, 1.5, 1.5, 1.5, 1.5, 2.5, 2.5, 2.5, 2.5, 3.5, 3.5, 3.5, 3.5];
+        let xs = m.min(m.add(m.splat(x as f32), m.lanes(X)), m.splat(tile.x[1] as f32 - 0.5));
+        let ys = m.min(m.add(m.splat(y as f32), m.lanes(Y)), m.splat(tile.y[1] as f32 - 0.5));
+        self.lanes.directions(m, xs, ys)
+    }
+
+    /// The range of slopes of rays between directions along (A, Y, Z), sixteen such rectangles at a time.
+    #[inline(always)]
+    fn range(&self, corners: [[M::F; 3]; 4]) -> [[M::F; 2]; 2] {
+        let m = self.m;
+        let slack = m.splat(self.slack);
+        let mut least = corners[0][0];
+        let mut slopes = [[m.splat(f32::INFINITY), m.splat(f32::NEG_INFINITY)]; 2];
+        for [a, y, z] in corners {
+            least = m.min(least, a);
+            for (slope, d) in slopes.iter_mut().zip([y, z]) {
+                let s = m.div(d, a);
+                *slope = [m.min(slope[0], s), m.max(slope[1], s)];
+            }
+        }
+        // Directions are off by `slack`, and slopes for that by twice (1 + |slope|) slack / a, and their own rounding.
+        let off = m.add(m.div(m.mul(slack, m.splat(4.0)), least), m.splat(1.0 / (1u32 << 20) as f32));
+        let far = m.le(least, m.mul(slack, m.splat(1024.0)));
+        let (one, minus) = (m.splat(1.0), m.splat(-1.0));
+        let mut out = slopes;
+        for [lo, hi] in &mut out {
+            let size = m.add(one, m.max(m.max(*hi, m.neg(*hi)), m.max(*lo, m.neg(*lo))));
+            let pad = m.mul(off, size);
+            *lo = m.select(far, minus, m.max(m.sub(*lo, pad), minus));
+            *hi = m.select(far, one, m.min(m.add(*hi, pad), one));
+        }
+        out
+    }
+
+    /// The ranges of slopes of all squares of a side in a tile.
+    #[inline(always)]
+    fn ranges(&self, heading: Heading, tile: Rect, side: u32, ranges: &mut Ranges) {
+        let m = self.m;
+        let [columns, rows] = tile.squares(side);
+        let squares = (columns * rows) as usize;
+        for range in ranges.0.iter_mut().flatten() {
+            if range.len() < squares + LANES {
+                range.resize(squares + LANES, 0.0);
+            }
+        }
+        const NUMBERS: [f32; LANES] =
+            [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0, 13.0, 14.0, 15.0];
+        let size = side as f32;
+        let [last_x, last_y] = [tile.x[1] as f32 - 0.5, tile.y[1] as f32 - 0.5];
+        for row in 0..rows {
+            let y = (tile.y[0] + row * side) as f32 + 0.5;
+            let ys = [m.splat(y), m.splat((y + (size - 1.0)).min(last_y))];
+            for column in (0..columns).step_by(LANES) {
+                let first = m.splat((tile.x[0] + column * side) as f32 + 0.5);
+                let x = m.add(first, m.mul(m.lanes(NUMBERS), m.splat(size)));
+                let xs = [
+                    m.min(x, m.splat(last_x)),
+                    m.min(m.add(x, m.splat(size - 1.0)), m.splat(last_x)),
+                ];
+                let through = [
+                    self.lanes.directions(m, xs[0], ys[0]),
+                    self.lanes.directions(m, xs[1], ys[0]),
+                    self.lanes.directions(m, xs[0], ys[1]),
+                    self.lanes.directions(m, xs[1], ys[1]),
+                ];
+                let corners = [
+                    heading.along_lanes(m, through[0]),
+                    heading.along_lanes(m, through[1]),
+                    heading.along_lanes(m, through[2]),
+                    heading.along_lanes(m, through[3]),
+                ];
+                let [[lo_y, hi_y], [lo_z, hi_z]] = self.range(corners);
+                let at = (row * columns + column) as usize;
+                let [[out_lo_y, out_hi_y], [out_lo_z, out_hi_z]] = &mut ranges.0;
+                out_lo_y[at..at + LANES].copy_from_slice(&m.to_array(lo_y));
+                out_hi_y[at..at + LANES].copy_from_slice(&m.to_array(hi_y));
+                out_lo_z[at..at + LANES].copy_from_slice(&m.to_array(lo_z));
+                out_hi_z[at..at + LANES].copy_from_slice(&m.to_array(hi_z));
+            }
+        }
+    }
+}
+
+impl<M: Machine> Work<M> {
+    /// Takes the spheres of neighbouring cells that the tile may see.
+    #[inline(always)]
+    fn gather(&mut self, look: &Look<'_, M>, heading: Heading, range: [[M::F; 2]; 2], cells: [usize; 2]) {
+        let (ids, [x, y, z, r]) = look.grid.row(cells);
+        self.counts.candidates += ids.len() as u64;
+        for start in (0..ids.len()).step_by(LANES) {
+            let world = [sixteen(x, start), sixteen(y, start), sixteen(z, start), sixteen(r, start)];
+            let part = &ids[start..(start + LANES).min(ids.len())];
+            self.consider(look, heading, range, part, &world);
+        }
+    }
+
+    /// Takes the large spheres that the tile may see.
+    #[inline(always)]
+    fn gather_large(&mut self, look: &Look<'_, M>, heading: Heading, range: [[M::F; 2]; 2]) {
+        self.counts.candidates += look.grid.large.len() as u64;
+        for ids in look.grid.large.chunks(LANES) {
+            let mut world = [[0.0; LANES]; 4];
+            for (lane, &id) in ids.iter().enumerate() {
+                let Sphere { center: [x, y, z], radius, .. } = look.scene.spheres()[id as usize];
+                (world[0][lane], world[1][lane], world[2][lane], world[3][lane]) = (x, y, z, radius);
+            }
+            self.consider(look, heading, range, ids, &world);
+        }
+    }
+
+    /// Takes of up to sixteen spheres, whose centres and radii are given, those that the tile may see.
+    #[inline(always)]
+    fn consider(
+        &mut self,
+        look: &Look<'_, M>,
+        heading: Heading,
+        range: [[M::F; 2]; 2],
+        ids: &[u32],
+        [x, y, z, r]: &[[f32; LANES]; 4],
+    ) {
+        let (m, eye, n) = (look.m, look.camera.eye(), ids.len());
+        let world = [m.lanes(*x), m.lanes(*y), m.lanes(*z)];
+        let radius = m.lanes(*r);
+        let c = three(
+            [0, 1, 2],
+            #[inline(always)]
+            |i| m.sub(world[i], m.splat(eye[i])),
+        );
+        let c = heading.along_lanes(m, c);
+        let magnitude = three(
+            c,
+            #[inline(always)]
+            |x| m.max(x, m.neg(x)),
+        );
+        let enlarged = cull::radii(m, magnitude, radius);
+        let outline = Outline::new(m, c, enlarged);
+        let mut kept = m.to_bits(outline.overlap(m, range)) & ((1 << n) - 1);
+        if kept != 0 {
+            let farthest = m.max(m.max(magnitude[0], magnitude[1]), magnitude[2]);
+            let rr = m.mul(radius, radius);
+            let [above, below, root] = look.rule.bounds(m, farthest, radius);
+            let ff = m.dot(c, c);
+            let slack = m.mul(m.add(ff, rr), m.splat(1.0 / (1u32 << 20) as f32));
+            let outside = m.to_bits(m.lt(m.add(rr, slack), ff));
+            let inside = m.to_bits(m.lt(m.add(ff, slack), rr));
+            let fields = [c[0], c[1], c[2], rr, above, below, root, outline.near, outline.lo[0], outline.lo[1], outline.hi[0], outline.hi[1]];
+            let mut rows = [[0.0; LANES]; 12];
+            for (row, field) in rows.iter_mut().zip(fields) {
+                *row = m.to_array(field);
+            }
+            while kept != 0 {
+                let lane = kept.trailing_zeros() as usize;
+                kept &= kept - 1;
+                let get = |i: usize| rows[i][lane];
+                let side = if outside >> lane & 1 != 0 { Side::Outside } else if inside >> lane & 1 != 0 { Side::Inside } else { Side::Unknown };
+                let list = &mut self.candidates;
+                list.balls.push(Ball {
+                    center: [get(0), get(1), get(2)],
+                    rr: get(3),
+                    bound: bound::Bound { hit_above: get(4), miss_below: get(5), root: get(6) },
+                    side,
+                });
+                list.ids.push(ids[lane]);
+                list.outlines.push([get(8), get(9)], [get(10), get(11)], get(7));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn sixteen(values: &[f32], at: usize) -> [f32; LANES] {
+    let mut lanes = [0.0; LANES];
+    lanes.copy_from_slice(&values[at..at + LANES]);
+    lanes
+}
+
+impl Ranges {
+    /// One of them, in all lanes.
+    #[inline(always)]
+    fn get<M: Machine>(&self, m: M, at: usize) -> [[M::F; 2]; 2] {
+        let [[lo_y, hi_y], [lo_z, hi_z]] = &self.0;
+        [[m.splat(lo_y[at]), m.splat(hi_y[at])], [m.splat(lo_z[at]), m.splat(hi_z[at])]]
+    }
+}
+
+impl Outlines {
+    #[inline(always)]
+    fn push(&mut self, lo: [f32; 2], hi: [f32; 2], near: f32) {
+        let ([lo_y, lo_z], [hi_y, hi_z]) = (&mut self.lo, &mut self.hi);
+        lo_y.push(lo[0]);
+        lo_z.push(lo[1]);
+        hi_y.push(hi[0]);
+        hi_z.push(hi[1]);
+        self.near.push(near);
+    }
+
+    fn truncate(&mut self, count: usize) {
+        for list in self.lo.iter_mut().chain(&mut self.hi).chain([&mut self.near]) {
+            list.truncate(count);
+        }
+    }
+
+    /// Fills the last sixteen up with what nothing overlaps.
+    #[inline(always)]
+    fn pad(&mut self) {
+        while !self.near.len().is_multiple_of(LANES) {
+            self.push([f32::INFINITY; 2], [f32::NEG_INFINITY; 2], f32::INFINITY);
+        }
+    }
+
+    /// Which of the sixteen from there on overlap a range.
+    #[inline(always)]
+    fn overlapping<M: Machine>(&self, m: M, at: usize, range: [[M::F; 2]; 2]) -> u32 {
+        let lo = [m.lanes(sixteen(&self.lo[0], at)), m.lanes(sixteen(&self.lo[1], at))];
+        let hi = [m.lanes(sixteen(&self.hi[0], at)), m.lanes(sixteen(&self.hi[1], at))];
+        m.to_bits(overlap(m, lo, hi, range))
+    }
+}
+
+impl Candidates {
+    fn clear(&mut self) {
+        self.balls.clear();
+        self.ids.clear();
+        self.outlines.truncate(0);
+    }
+
+    /// Takes back what pads the outlines.
+    fn trim(&mut self) {
+        self.outlines.truncate(self.ids.len());
+    }
+
+    /// The ids of all that overlap a range.
+    #[cold]
+    fn overlapping<M: Machine>(&self, m: M, range: [[M::F; 2]; 2], ids: &mut Vec<u32>) {
+        ids.clear();
+        for chunk in (0..self.ids.len()).step_by(LANES) {
+            let mut bits = self.outlines.overlapping(m, chunk, range);
+            while bits != 0 {
+                ids.push(self.ids[chunk + bits.trailing_zeros() as usize]);
+                bits &= bits - 1;
+            }
+        }
+    }
+}
+
+impl Few {
+    /// Those of the candidates from there on that overlap a range.
+    #[inline(always)]
+    fn take<M: Machine>(&mut self, m: M, all: &Candidates, from: usize, range: [[M::F; 2]; 2]) {
+        self.index.clear();
+        self.outlines.truncate(0);
+        self.nearest.clear();
+        let o = &all.outlines;
+        for chunk in (from / LANES * LANES..all.ids.len()).step_by(LANES) {
+            let mut bits = o.overlapping(m, chunk, range);
+            if chunk < from {
+                bits &= ALL << (from - chunk);
+            }
+            while bits != 0 {
+                let i = chunk + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                self.index.push(i as u32);
+                self.outlines.push([o.lo[0][i], o.lo[1][i]], [o.hi[0][i], o.hi[1][i]], o.near[i]);
+            }
+        }
+        self.outlines.pad();
+        let mut least = f32::INFINITY;
+        for chunk in self.outlines.near.chunks(LANES).rev() {
+            for &near in chunk {
+                least = least.min(near);
+            }
+            self.nearest.push(least);
+        }
+        self.nearest.reverse();
+    }
+}
