@@ -8,12 +8,16 @@ use tempfile::TempDir;
 use verify::scenes::catalogue::{Data, ENTRIES};
 
 /// Commands that are not run here, and why. Each must occur, and each script of them must be there to be run.
-const NOT_RUN: [(&str, &str); 3] = [
+const NOT_RUN: [(&str, &str); 4] = [
     ("tests/run", "it is what runs this test"),
     ("tests/fetch-data", "it needs a network"),
     (
         "tests/with-embree cargo run --release --features embree -- verify 1hvr --judges embree --size 640x360",
         "tests/embree.rs runs it, where there is an Embree",
+    ),
+    (
+        "tests/with-embree cargo run --release --features embree,peers -- bench --peers embree,bvh,parry3d --threads 1 --curves --out fast",
+        "it takes most of an hour, and Embree; tests/bench.rs runs all its parts on small pictures",
     ),
 ];
 

@@ -5,7 +5,8 @@
 //! is random. What is judged: [`subject`], of other people `peers` (behind
 //! the feature of that name). How: [`judge`] by bits and by error bounds and by an outside witness
 //! (`embree`, behind the feature of that name), [`visible`] from inside the grid
-//! tracer; a [`verdict`] is what they say. [`run`] does it all for one frame; [`claims`], [`picture`] and [`report`] show it.
+//! tracer; a [`verdict`] is what they say. [`run`] does it all for one frame, [`bench`](mod@bench) says how
+//! fast; [`claims`], [`picture`] and [`report`] show it.
 
 pub mod directed;
 pub mod matrix;
@@ -27,6 +28,8 @@ pub mod verdict;
 pub mod visible;
 
 pub mod run;
+
+pub mod bench;
 
 pub mod claims;
 pub mod picture;

@@ -6,9 +6,10 @@
 //! writes outside its structures, leaves the flush-to-zero mode set, or cannot find spheres that are plainly there.
 //!
 //! The order is that of a question: [`Device`] loads and checks the library, [`Tracer`] holds a scene and asks,
-//! [`Witness`](crate::judge::outside::Witness) is what the judge sees of it. Unsafe code stands in `ffi` alone. What tests
+//! [`Animated`] does so at the library's best speed, [`Witness`](crate::judge::outside::Witness) is what the judge sees of it. Unsafe code stands in `ffi` alone. What tests
 //! plant to see the checks turn red is a [`Fault`].
 
+mod animated;
 mod canary;
 mod device;
 mod error;
@@ -18,6 +19,7 @@ mod packet;
 mod tracer;
 mod witness;
 
+pub use animated::{Animated, Mode};
 pub use device::{Device, Isa, Version};
 pub use error::{Code, EmbreeError};
 pub use fault::Fault;

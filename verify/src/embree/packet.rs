@@ -9,6 +9,7 @@
 use super::error::EmbreeError;
 use super::fault::Fault;
 use super::tracer::Width;
+use contract::MISS;
 use embree4_sys::{RTCRayHit, RTCRayHit4, RTCRayHit8, RTCRayHit16};
 use reference::Ray;
 use std::mem::offset_of;
@@ -82,6 +83,26 @@ impl<const W: usize, const S: usize> Packet<W, S> {
         if fault != Fault::IdKept {
             self.geom[lane] = NO_GEOMETRY;
         }
+    }
+
+    /// A packet of rays from one eye.
+    pub(super) fn from_eye(eye: [f32; 3]) -> Self {
+        Self { org: eye.map(|x| [x; W]), ..Self::new() }
+    }
+
+    /// Gives all rays a direction and forgets what was found. No fault is planted here.
+    #[inline]
+    pub(super) fn aim(&mut self, dir: &[[f32; W]; 3]) {
+        self.dir = *dir;
+        self.tfar = [f32::INFINITY; W];
+        self.prim = [MISS; W];
+        self.geom = [NO_GEOMETRY; W];
+    }
+
+    /// Ids and t of all lanes since [`aim`](Self::aim): a miss is [`MISS`] and +∞.
+    #[inline]
+    pub(super) fn found(&self) -> (&[u32; W], &[f32; W]) {
+        (&self.prim, &self.tfar)
     }
 
     /// Id and t of the sphere that a lane hit.

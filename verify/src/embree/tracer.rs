@@ -35,7 +35,7 @@ impl Width {
     }
 
     /// The block of pixels that a packet is.
-    fn block(self) -> [u32; 2] {
+    pub(super) fn block(self) -> [u32; 2] {
         match self {
             Self::One => [1, 1],
             Self::Four => [2, 2],
@@ -63,7 +63,7 @@ pub enum Build {
 }
 
 impl Build {
-    fn flags(self) -> (RTCSceneFlags, RTCBuildQuality) {
+    pub(super) fn flags(self) -> (RTCSceneFlags, RTCBuildQuality) {
         match self {
             Self::Robust => (RTCSceneFlags::ROBUST, RTCBuildQuality::MEDIUM),
             Self::Plain => (RTCSceneFlags::NONE, RTCBuildQuality::MEDIUM),
@@ -106,7 +106,7 @@ impl Tracer {
 
     fn built(device: &Device, points: &[[f32; 4]], build: Build) -> Result<RawScene, EmbreeError> {
         let (flags, quality) = build.flags();
-        checked(RawScene::new(&device.raw, points, flags, quality))
+        checked(RawScene::new(&device.raw, points.iter().copied(), flags, quality))
     }
 
     /// Hands over the next frame's spheres and has them built.
@@ -116,7 +116,7 @@ impl Tracer {
     pub fn update(&mut self, scene: &Scene) -> Result<(), EmbreeError> {
         let points = points(scene, self.fault);
         if points.len() == self.raw.count() {
-            checked(self.raw.fill(&points))
+            checked(self.raw.fill(points.iter().copied()))
         } else {
             self.raw = Self::built(&self.device, &points, self.build)?;
             Ok(())
@@ -243,6 +243,6 @@ fn points(scene: &Scene, fault: Fault) -> Vec<[f32; 4]> {
     points
 }
 
-fn checked<T>(outcome: Result<T, (&'static str, super::Code)>) -> Result<T, EmbreeError> {
+pub(super) fn checked<T>(outcome: Result<T, (&'static str, super::Code)>) -> Result<T, EmbreeError> {
     outcome.map_err(|(call, code)| EmbreeError::Call { call, code })
 }

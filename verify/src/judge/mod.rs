@@ -8,6 +8,7 @@
 
 pub mod band;
 pub mod compare;
+pub mod narrowed;
 pub mod outside;
 
 use crate::subject::{Promise, Rounding};

@@ -67,11 +67,27 @@ impl Subject for BvhCrate {
         threads: usize,
         row_done: &(dyn Fn() + Sync),
     ) -> Result<Rendered, SubjectError> {
+        let search = Search::new(scene, camera);
+        picture(scene, camera, threads, row_done, |ray| search.nearest(ray))
+    }
+}
+
+/// The tree over a scene.
+pub(crate) struct Search {
+    tree: Bvh<f64, 3>,
+    shapes: Vec<Shape>,
+}
+
+impl Search {
+    pub(crate) fn new(scene: &Scene, camera: &Camera) -> Self {
         let margin = reach(scene, camera) * 2f64.powi(-40);
         let shape = |(id, sphere): (u32, &Sphere)| Shape { id, sphere: *sphere, margin, node: 0 };
         let mut shapes: Vec<Shape> = (0..).zip(scene.spheres()).map(shape).collect();
-        let tree = Bvh::build(&mut shapes);
-        picture(scene, camera, threads, row_done, |ray| nearest(&tree, &shapes, ray))
+        Self { tree: Bvh::build(&mut shapes), shapes }
+    }
+
+    pub(crate) fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        nearest(&self.tree, &self.shapes, ray)
     }
 }
 

@@ -11,7 +11,9 @@ mod parry;
 pub mod tachyon;
 
 pub use self::bvh::BvhCrate;
+pub(crate) use self::bvh::Search as BvhSearch;
 pub use parry::Parry;
+pub(crate) use parry::Search as ParrySearch;
 
 use crate::subject::{Rendered, SubjectError};
 use contract::{Camera, Image, Scene, Sphere};

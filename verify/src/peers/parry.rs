@@ -11,7 +11,7 @@ use parry3d::bounding_volume::Aabb;
 use parry3d::math::Vector;
 use parry3d::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d::query::details::ray_toi_with_ball;
-use reference::Hit;
+use reference::{Hit, Ray};
 
 /// The crate `parry3d` with balls as its shapes.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +37,16 @@ impl Subject for Parry {
         threads: usize,
         row_done: &(dyn Fn() + Sync),
     ) -> Result<Rendered, SubjectError> {
+        let search = Search::new(scene, camera);
+        picture(scene, camera, threads, row_done, |ray| search.nearest(scene, ray))
+    }
+}
+
+/// The tree over a scene.
+pub(crate) struct Search(Bvh);
+
+impl Search {
+    pub(crate) fn new(scene: &Scene, camera: &Camera) -> Self {
         let margin = reach(scene, camera) * 2f64.powi(-18);
         #[allow(clippy::cast_possible_truncation, reason = "far less than the margin")]
         let aabb = |s: &Sphere| {
@@ -44,14 +54,16 @@ impl Subject for Parry {
             Aabb::new(Vector::from(s.center) - half, Vector::from(s.center) + half)
         };
         let boxes: Vec<Aabb> = scene.spheres().iter().map(aabb).collect();
-        let tree = Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes);
-        picture(scene, camera, threads, row_done, |ray| {
-            let ray = parry3d::query::Ray::new(ray.eye.into(), ray.dir.into());
-            let hit = tree.cast_ray(&ray, f32::MAX, |id, _| {
-                let ball = &scene.spheres()[id as usize];
-                ray_toi_with_ball(ball.center.into(), ball.radius, &ray, false).1.filter(|t| *t > 0.0)
-            });
-            hit.map(|(id, t)| Hit { id, t })
-        })
+        Self(Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes))
+    }
+
+    /// `scene` is the one that the tree is over.
+    pub(crate) fn nearest(&self, scene: &Scene, ray: &Ray) -> Option<Hit> {
+        let ray = parry3d::query::Ray::new(ray.eye.into(), ray.dir.into());
+        let hit = self.0.cast_ray(&ray, f32::MAX, |id, _| {
+            let ball = &scene.spheres()[id as usize];
+            ray_toi_with_ball(ball.center.into(), ball.radius, &ray, false).1.filter(|t| *t > 0.0)
+        });
+        hit.map(|(id, t)| Hit { id, t })
     }
 }

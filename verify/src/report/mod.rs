@@ -13,9 +13,9 @@ mod json;
 mod names;
 mod outside;
 mod pictures;
-mod text;
-mod view;
-mod words;
+pub(crate) mod text;
+pub(crate) mod view;
+pub(crate) mod words;
 
 pub use data::{
     Absent, CameraRecord, Claim, Counter, Environment, Evidence, Judge, Report, SCHEMA_VERSION, SceneReport,

@@ -84,7 +84,7 @@ fn ending(report: &Report, color: bool) -> String {
     format!("{said}{absent}{verdict}{} {}{verdict:#}\n", sign(report.verdict), word(report.verdict))
 }
 
-fn wrapped(line: &str) -> String {
+pub(crate) fn wrapped(line: &str) -> String {
     textwrap::fill(&tame(line), textwrap::Options::new(TEXT_WIDTH).subsequent_indent("  "))
 }
 
@@ -93,7 +93,7 @@ fn tame(text: &str) -> String {
 }
 
 /// The text in at most that many columns, with an ellipsis for what is left out.
-fn clipped(text: &str, width: usize) -> String {
+pub(crate) fn clipped(text: &str, width: usize) -> String {
     let text = tame(text);
     if display_width(&text) <= width {
         return text;
@@ -109,7 +109,7 @@ fn clipped(text: &str, width: usize) -> String {
     short + "…"
 }
 
-fn style(verdict: Verdict, color: bool) -> Style {
+pub(crate) fn style(verdict: Verdict, color: bool) -> Style {
     let shade = match verdict {
         Verdict::Equal => AnsiColor::Green,
         Verdict::WithinBound => AnsiColor::Cyan,

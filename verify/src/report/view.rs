@@ -13,10 +13,10 @@ use base64::prelude::BASE64_STANDARD;
 
 /// A verdict as word, sign and style.
 #[derive(Clone, Copy)]
-pub(super) struct Badge {
-    pub(super) class: &'static str,
-    pub(super) sign: &'static str,
-    pub(super) word: &'static str,
+pub(crate) struct Badge {
+    pub(crate) class: &'static str,
+    pub(crate) sign: &'static str,
+    pub(crate) word: &'static str,
 }
 
 /// A scene on the page.

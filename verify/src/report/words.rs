@@ -4,10 +4,10 @@
 use crate::verdict::Verdict;
 
 /// Stands where there is no figure.
-pub(super) const NONE: &str = "–";
+pub(crate) const NONE: &str = "–";
 
 /// All verdicts, from good to bad.
-pub(super) const VERDICTS: [Verdict; 5] =
+pub(crate) const VERDICTS: [Verdict; 5] =
     [Verdict::Equal, Verdict::WithinBound, Verdict::Undecidable, Verdict::Wrong, Verdict::NotJudged];
 
 /// The verdict as a word.
@@ -23,7 +23,7 @@ pub fn word(verdict: Verdict) -> &'static str {
 }
 
 /// The verdict as one sign, for those who do not see its colour.
-pub(super) fn sign(verdict: Verdict) -> &'static str {
+pub(crate) fn sign(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Equal => "=",
         Verdict::WithinBound => "≈",
@@ -34,7 +34,7 @@ pub(super) fn sign(verdict: Verdict) -> &'static str {
 }
 
 /// What the verdict means for a whole run.
-pub(super) fn sentence(verdict: Verdict) -> &'static str {
+pub(crate) fn sentence(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Equal => "Every picture has the bits of the exact one.",
         Verdict::WithinBound => "Every difference lies where the subject's stated arithmetic cannot decide.",
@@ -45,14 +45,14 @@ pub(super) fn sentence(verdict: Verdict) -> &'static str {
 }
 
 /// A count with its thousands apart: 1 234 567, the spaces narrow and unbreakable.
-pub(super) fn count(value: impl Into<u64>) -> String {
+pub(crate) fn count(value: impl Into<u64>) -> String {
     let digits = value.into().to_string();
     let groups: Vec<_> = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy).collect();
     groups.join("\u{202f}")
 }
 
 /// Three digits that matter, without an exponent where it reads well.
-pub(super) fn figure(value: f64) -> String {
+pub(crate) fn figure(value: f64) -> String {
     match value.abs() {
         size if !size.is_finite() => value.to_string(),
         size if size >= 1e6 || (size > 0.0 && size < 1e-4) => format!("{value:.2e}"),
@@ -65,7 +65,7 @@ pub(super) fn figure(value: f64) -> String {
 }
 
 /// Seconds in the unit that fits.
-pub(super) fn duration(seconds: f64) -> String {
+pub(crate) fn duration(seconds: f64) -> String {
     match seconds {
         s if s >= 1.0 => format!("{} s", figure(s)),
         s if s >= 1e-3 => format!("{} ms", figure(s * 1e3)),
@@ -74,12 +74,12 @@ pub(super) fn duration(seconds: f64) -> String {
 }
 
 /// Millions of rays a second.
-pub(super) fn mega_rays(rays_per_second: Option<f64>) -> String {
+pub(crate) fn mega_rays(rays_per_second: Option<f64>) -> String {
     rays_per_second.map_or_else(|| NONE.to_owned(), |rays| figure(rays / 1e6))
 }
 
 /// So many of so many, in a million; none of none is none.
 #[allow(clippy::cast_precision_loss, reason = "a picture has at most 2^27 pixels")]
-pub(super) fn per_million(wrong: u64, pixels: u64) -> f64 {
+pub(crate) fn per_million(wrong: u64, pixels: u64) -> f64 {
     if wrong == 0 { 0.0 } else { wrong as f64 * 1e6 / pixels as f64 }
 }

@@ -26,18 +26,22 @@ Exit codes:
   1  a mismatch: at least one pixel is wrong beyond that
   2  bad input or usage; nothing was judged
   3  no verdict: something needed for it is missing, or lies outside what a tracer states
+  4  slower than the baseline (`cgt bench --baseline`)
 
 Examples:
   cgt                                   judge all tracers on the bundled molecule
   cgt verify 2juy --frame 3 --plan safe
   cgt verify uniform:5000:1 own.pdb     a generated scene and a file
   cgt render sphereflake:4 flake.png --size 800x600
+  cgt bench 1hvr --peers embree --threads 1
   cgt scenes                            what can be named";
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Judge tracers on scenes and write a report (the default)
     Verify(Verify),
+    /// Time the grid tracer, its limit and other people's tracers, each checked before it is timed
+    Bench(Bench),
     #[allow(clippy::doc_markdown, reason = "shown to people as it stands")]
     /// Render one scene to a PNG or OpenEXR file
     Render(Render),
@@ -48,6 +52,7 @@ pub(crate) enum Command {
 const SUBJECTS: [&str; 6] =
     ["naive-f64", "naive-f32-perpendicular", "naive-f32-textbook", "fast", "safe", "paper"];
 const PLANS: [&str; 3] = ["fast", "safe", "paper"];
+const OUTSIDERS: [&str; 3] = ["embree", "bvh", "parry3d"];
 /// The outside judge.
 pub(crate) const EMBREE: &str = "embree";
 
@@ -75,6 +80,61 @@ pub(crate) struct Verify {
     /// Folder of the report; files of the same names in it are replaced
     #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
     pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) view: View,
+}
+
+/// What a benchmark is of, where no scene is named.
+pub(crate) fn default_scenes() -> Vec<String> {
+    ["1hvr", "adk", "sphereflake:4", "uniform:500:1", "uniform:2000:1", "uniform:4000:1"]
+        .map(str::to_owned)
+        .to_vec()
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Bench {
+    /// Scenes, as for `verify` [default: 1hvr, adk, sphereflake:4, and 500, 2000 and 4000 random spheres]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// Tracers of other people to be timed too, with commas between; one that is missing is then no verdict [default:
+    /// embree, if this program was built with it]
+    #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = OUTSIDERS)]
+    pub(crate) peers: Vec<String>,
+    /// Plan of the grid tracer
+    #[arg(long, value_name = "NAME", value_parser = PLANS, default_value = "fast")]
+    pub(crate) plan: String,
+    /// SIMD level of the grid tracer, and of Embree: scalar, sse2, sse4.2, avx2, avx512 [default: the best, or the one
+    /// that CGT_LEVEL names]
+    #[arg(long, value_name = "LEVEL")]
+    pub(crate) level: Option<String>,
+    /// Rounds of measuring [default: as many as the time allows, at least 5]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..=10_000))]
+    pub(crate) rounds: Option<u16>,
+    /// Time for measuring on each scene, if there is no --rounds
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]
+    pub(crate) seconds: f64,
+    /// Also time how times grow: with random spheres up to --most-spheres, with the pixels of the first scene up to --most-rows,
+    /// with threads up to one a core
+    #[arg(long)]
+    pub(crate) curves: bool,
+    /// Where the curve over spheres ends
+    #[arg(long, value_name = "N", default_value_t = 10_000_000)]
+    pub(crate) most_spheres: usize,
+    /// Where the curve over pixels ends, in rows of a picture
+    #[arg(long, value_name = "N", default_value_t = 2160)]
+    pub(crate) most_rows: u32,
+    /// File for all that was found, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Folder for a page that opens offline, bench.html, with the same data in bench.json beside it
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// The JSON file of an earlier run on this machine: if a scene is slower now, the exit code is 4
+    #[arg(long, value_name = "FILE")]
+    pub(crate) baseline: Option<PathBuf>,
+    /// How much slower a scene may be than in the baseline, in per cent
+    #[arg(long, value_name = "PERCENT", default_value_t = 10.0, value_parser = percent)]
+    pub(crate) tolerance: f64,
     #[command(flatten)]
     pub(crate) view: View,
 }
@@ -176,6 +236,16 @@ fn size(text: &str) -> Result<Size, String> {
     let number = |text: &str| text.parse::<u32>().map_err(|e| format!("`{text}`: {e}"));
     let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, as 1280x720")?;
     Size::new(number(width)?, number(height)?).map_err(|e| e.to_string())
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse::<f64>().map_err(|e| e.to_string())?;
+    if (0.0..=86_400.0).contains(&seconds) { Ok(seconds) } else { Err("expected 0 to 86400".into()) }
+}
+
+fn percent(text: &str) -> Result<f64, String> {
+    let percent = text.parse::<f64>().map_err(|e| e.to_string())?;
+    if (0.0..100.0).contains(&percent) { Ok(percent) } else { Err("expected 0 to below 100".into()) }
 }
 
 fn vector(text: &str) -> Result<[f64; 3], String> {

@@ -1,6 +1,7 @@
 //! `cgt`: renders sphere scenes, judges tracers of them, and writes what it found into a report.
 //!
-//! Exit codes: 0 all agree, 1 a mismatch, 2 bad input or usage, 3 something needed for a verdict is missing.
+//! Exit codes: 0 all agree, 1 a mismatch, 2 bad input or usage, 3 something needed for a verdict is missing,
+//! 4 slower than the baseline.
 
 mod args;
 mod cmd;
@@ -21,6 +22,7 @@ fn main() -> ExitCode {
         None => cmd::verify::verify(&cli.verify),
         Some(Command::Verify(args)) => cmd::verify::verify(&args),
         Some(Command::Render(args)) => cmd::render::render(&args),
+        Some(Command::Bench(args)) => cmd::bench::run(&args),
         Some(Command::Scenes) => cmd::scenes::scenes(),
     };
     outcome.unwrap_or_else(|failure| {

@@ -5,6 +5,7 @@
 
 use std::arch::asm;
 use std::hint::black_box;
+use std::mem::offset_of;
 
 /// The state Rust code runs in, all exceptions masked, with flush-to-zero (bit 15) and denormals-are-zero (bit 6).
 pub(in crate::embree) const FLUSHED: u32 = 0x1f80 | 0x8000 | 0x0040;
@@ -38,6 +39,67 @@ pub(super) unsafe fn call(function: *const (), arguments: [*const (); 4]) {
         );
     }
 }
+
+/// What [`call_all`] keeps in memory between the calls, where its assembly finds it.
+#[repr(C)]
+struct Series {
+    kept: u32,
+    flushed: u32,
+    left: usize,
+    arguments: [*const (); 4],
+    steps: [usize; 4],
+    function: *const (),
+}
+
+/// Calls a C function so many times in the same way, each argument so many bytes further on each time. What surrounds a
+/// call is paid for once.
+///
+/// # Safety
+/// As [`call`], for the arguments of each of the calls.
+pub(super) unsafe fn call_all(
+    function: *const (),
+    arguments: [*const (); 4],
+    steps: [usize; 4],
+    times: usize,
+) {
+    if times == 0 {
+        return;
+    }
+    let mut series = Series { kept: 0, flushed: FLUSHED, left: times, arguments, steps, function };
+    // SAFETY: as in `call`. `series` is alive and laid out as the offsets say; r12 survives each call, and the loop ends when
+    // nothing is left.
+    unsafe {
+        asm!(
+            "stmxcsr [r12]",
+            "ldmxcsr [r12 + 4]",
+            "2:",
+            "mov rdi, [r12 + 16]",
+            "mov rsi, [r12 + 24]",
+            "mov rdx, [r12 + 32]",
+            "mov rcx, [r12 + 40]",
+            "call [r12 + 80]",
+            "mov rdi, [r12 + 48]",
+            "mov rsi, [r12 + 56]",
+            "mov rdx, [r12 + 64]",
+            "mov rcx, [r12 + 72]",
+            "add [r12 + 16], rdi",
+            "add [r12 + 24], rsi",
+            "add [r12 + 32], rdx",
+            "add [r12 + 40], rcx",
+            "dec qword ptr [r12 + 8]",
+            "jnz 2b",
+            "ldmxcsr [r12]",
+            in("r12") &raw mut series,
+            clobber_abi("C"),
+        );
+    }
+}
+
+const _: () = {
+    assert!(offset_of!(Series, flushed) == 4 && offset_of!(Series, left) == 8);
+    assert!(offset_of!(Series, arguments) == 16 && offset_of!(Series, steps) == 48);
+    assert!(offset_of!(Series, function) == 80);
+};
 
 /// The state as it is within [`call`], without its bits for what has happened.
 pub(in crate::embree) fn state_within() -> u32 {

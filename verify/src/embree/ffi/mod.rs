@@ -88,7 +88,7 @@ impl RawScene {
     /// Centre and radius of each sphere.
     pub(super) fn new(
         device: &Arc<RawDevice>,
-        points: &[[f32; 4]],
+        points: impl ExactSizeIterator<Item = [f32; 4]>,
         flags: RTCSceneFlags,
         quality: RTCBuildQuality,
     ) -> Result<Self, (&'static str, Code)> {
@@ -103,7 +103,7 @@ impl RawScene {
             rtcSetSceneFlags(scene, flags);
             rtcSetSceneBuildQuality(scene, quality);
         }
-        if !points.is_empty() {
+        if points.len() > 0 {
             built.attach(points.len())?;
         }
         built.fill(points)?;
@@ -134,13 +134,18 @@ impl RawScene {
     }
 
     /// Overwrites all spheres and builds anew. There must be as many as before.
-    pub(super) fn fill(&mut self, points: &[[f32; 4]]) -> Result<(), (&'static str, Code)> {
+    pub(super) fn fill(
+        &mut self,
+        points: impl ExactSizeIterator<Item = [f32; 4]>,
+    ) -> Result<(), (&'static str, Code)> {
         assert_eq!(points.len(), self.count(), "as many spheres as the scene was made for");
         if let Some(held) = &self.geometry {
-            // SAFETY: the buffer holds `count` items, as asserted, is aligned to 16 bytes, and overlaps nothing of Rust's;
-            // no query runs, since this takes `&mut`.
+            for (at, point) in points.take(held.count).enumerate() {
+                // SAFETY: the buffer holds `count` items and is aligned to 16 bytes; no query runs, since this takes `&mut`.
+                unsafe { held.buffer.add(at).write(point) };
+            }
+            // SAFETY: the geometry is alive.
             unsafe {
-                std::ptr::copy_nonoverlapping(points.as_ptr(), held.buffer, held.count);
                 rtcUpdateGeometryBuffer(held.geometry, RTCBufferType::VERTEX, 0);
                 rtcCommitGeometry(held.geometry);
             }
@@ -158,20 +163,75 @@ impl RawScene {
         valid: &Valid<W>,
         packet: &mut Packet<W, S>,
     ) {
-        let (mask, scene) = (std::ptr::from_ref(valid).cast::<()>(), self.scene.cast::<()>().cast_const());
+        let valid = std::ptr::from_ref(valid).cast::<()>();
+        let (function, arguments, _) = self.question(valid, packet, std::ptr::null());
+        // SAFETY: the arguments are those of the function, as `question` says; null for its own means the defaults. The packet
+        // is borrowed mutably for as long as the call takes.
+        unsafe { flush::call(function, arguments) };
+    }
+
+    /// Traces the valid lanes of each packet, all of them with flush-to-zero set once. The packets of a batch look much the
+    /// same way if they are `coherent`.
+    pub(super) fn intersect_all<const W: usize, const S: usize>(
+        &self,
+        valid: &[Valid<W>],
+        packets: &mut [Packet<W, S>],
+        coherent: bool,
+    ) {
+        assert_eq!(valid.len(), packets.len(), "a mask for each packet");
+        let Some(first) = packets.first_mut() else { return };
+        let arguments = Arguments::new(coherent);
+        let masks = valid.as_ptr().cast::<()>();
+        let (function, firsts, steps) = self.question(masks, first, (&raw const arguments).cast());
+        // SAFETY: the arguments are those of the function for the first packet, as `question` says, and a step leads from a
+        // packet to the next and from its mask to the next, of which there are as many as packets. The packets are borrowed
+        // mutably, and `arguments` lives, for as long as the calls take.
+        unsafe { flush::call_all(function, firsts, steps, packets.len()) };
+    }
+
+    /// The function that takes packets of this width; its arguments: a committed scene, a mask and a packet of its width, both
+    /// aligned to 64 bytes and the packet laid out as its headers say (asserted in `packet`), with guard words behind what
+    /// newer versions write, and the arguments of the query; and how far it is from a packet's to the next one's.
+    fn question<const W: usize, const S: usize>(
+        &self,
+        mask: *const (),
+        packet: &mut Packet<W, S>,
+        query: *const (),
+    ) -> (*const (), [*const (); 4], [usize; 4]) {
+        let scene = self.scene.cast::<()>().cast_const();
         let packet = std::ptr::from_mut(packet).cast::<()>().cast_const();
-        let no_arguments = std::ptr::null::<()>();
-        let (function, arguments) = match W {
-            1 => (rtcIntersect1 as *const (), [scene, packet, no_arguments, no_arguments]),
-            4 => (rtcIntersect4 as *const (), [mask, scene, packet, no_arguments]),
-            8 => (rtcIntersect8 as *const (), [mask, scene, packet, no_arguments]),
-            16 => (rtcIntersect16 as *const (), [mask, scene, packet, no_arguments]),
+        let (masks, packets) = (size_of::<Valid<W>>(), size_of::<Packet<W, S>>());
+        let wide = ([mask, scene, packet, query], [masks, 0, packets, 0]);
+        let (function, (arguments, steps)) = match W {
+            1 => (rtcIntersect1 as *const (), ([scene, packet, query, query], [0, packets, 0, 0])),
+            4 => (rtcIntersect4 as *const (), wide),
+            8 => (rtcIntersect8 as *const (), wide),
+            16 => (rtcIntersect16 as *const (), wide),
             _ => unreachable!("packets are of 1, 4, 8 and 16 rays"),
         };
-        // SAFETY: the arguments are those of the function: a committed scene, a mask and a packet of its width, aligned to
-        // 64 bytes and laid out as its headers say (asserted in `packet`), with guard words behind what newer versions
-        // write; null for the arguments means the defaults. The packet is borrowed mutably for as long as the call takes.
-        unsafe { flush::call(function, arguments) };
+        (function, arguments, steps)
+    }
+}
+
+/// What a query is told of its rays: as the library's `rtcInitIntersectArguments` sets it, with zeros behind for what newer
+/// versions may read.
+#[repr(C)]
+struct Arguments {
+    known: RTCIntersectArguments,
+    later: [u64; 8],
+}
+
+impl Arguments {
+    fn new(coherent: bool) -> Self {
+        let flags = if coherent { RTCRayQueryFlags::COHERENT } else { RTCRayQueryFlags::INCOHERENT };
+        let known = RTCIntersectArguments {
+            flags,
+            feature_mask: RTCFeatureFlags::RTC_FEATURE_FLAG_ALL,
+            context: std::ptr::null_mut(),
+            filter: None,
+            intersect: None,
+        };
+        Self { known, later: [0; 8] }
     }
 }
 

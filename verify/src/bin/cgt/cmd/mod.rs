@@ -1,5 +1,6 @@
 //! The subcommands.
 
+pub(crate) mod bench;
 pub(crate) mod render;
 pub(crate) mod scenes;
 pub(crate) mod verify;

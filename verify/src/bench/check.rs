@@ -1,0 +1,127 @@
+//! Whether a contestant may be timed: its layers against the exact picture, and every difference against its oath.
+//!
+//! Who promised the truth is wrong by the first bit that differs. Of the others a pixel counts as differing if it shows
+//! another sphere, and as wrong if its rounding explains neither that nor its t. Embree, asked as its users ask it, crosses
+//! boxes without a margin and may lose a ray on an edge between two of them; to leave it out for that would leave out its
+//! fastest ways, in favour of the tracer under test. So of those who are not the subject one pixel in [`ALLOWED`] may be
+//! wrong, and how many are is reported.
+
+use super::contestant::{Kind, Layers, Oath};
+use crate::judge::outside::Stand;
+use crate::verdict::Verdict;
+use contract::{Camera, Image, MISS, Scene};
+use rayon::prelude::*;
+use reference::Ray;
+
+/// One in so many pixels.
+pub const ALLOWED: usize = 10_000;
+
+/// What came of it.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Checked {
+    /// Pixels that show another sphere than the exact picture; of an exact oath also another t or colour.
+    pub differing: u64,
+    /// Of all pixels those that the oath does not allow.
+    pub wrong: u64,
+    /// Pixels of which the oath states nothing.
+    pub not_stated: u64,
+    /// The first wrong pixel: column and row.
+    pub first: Option<[u32; 2]>,
+}
+
+impl Checked {
+    /// The word.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        match self {
+            Self { wrong: 1.., .. } => Verdict::Wrong,
+            Self { not_stated: 1.., .. } => Verdict::Undecidable,
+            Self { differing: 1.., .. } => Verdict::WithinBound,
+            _ => Verdict::Equal,
+        }
+    }
+
+    /// Whether it may be timed.
+    #[must_use]
+    pub fn passes(&self, kind: Kind, pixels: usize) -> bool {
+        match kind {
+            Kind::Subject | Kind::Limit => self.wrong == 0,
+            Kind::Embree | Kind::Peer => self.wrong <= (pixels / ALLOWED) as u64,
+        }
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self {
+            differing: self.differing + other.differing,
+            wrong: self.wrong + other.wrong,
+            not_stated: self.not_stated + other.not_stated,
+            first: self.first.or(other.first),
+        }
+    }
+}
+
+/// Holds a frame against the exact picture. A layer of another length than the picture is wrong in every pixel.
+#[must_use]
+pub fn check(scene: &Scene, camera: &Camera, truth: &Image, layers: Layers<'_>, oath: Oath) -> Checked {
+    let pixels = camera.size().pixels();
+    let lengths = [layers.ids.len(), layers.t.len(), layers.rgba.map_or(pixels, <[_]>::len)];
+    if lengths != [pixels; 3] {
+        let all = pixels as u64;
+        return Checked { differing: all, wrong: all, not_stated: 0, first: Some([0, 0]) };
+    }
+    let width = camera.size().width();
+    let rows = (0..camera.size().height()).into_par_iter().map(|y| {
+        let mut row = Checked::default();
+        for (x, i) in (0..width).zip(y as usize * width as usize..) {
+            let (differs, allowed) = match oath {
+                Oath::Exact => {
+                    let differs = differs(truth, layers, i);
+                    (differs, Some(!differs))
+                }
+                Oath::Within(band) => {
+                    let ray = Ray::of_pixel(camera, x, y);
+                    let differs = layers.ids[i] != truth.ids[i];
+                    (differs, explained(scene, &ray, band, differs, layers.ids[i], layers.t[i]))
+                }
+            };
+            row.differing += u64::from(differs);
+            match allowed {
+                Some(true) => {}
+                Some(false) => {
+                    row.wrong += 1;
+                    row.first.get_or_insert([x, y]);
+                }
+                None => row.not_stated += 1,
+            }
+        }
+        row
+    });
+    // In the order of rows, so that the first is the first.
+    rows.collect::<Vec<_>>().into_iter().fold(Checked::default(), Checked::and)
+}
+
+fn differs(truth: &Image, layers: Layers<'_>, i: usize) -> bool {
+    truth.ids[i] != layers.ids[i]
+        || truth.t[i].to_bits() != layers.t[i].to_bits()
+        || layers.rgba.is_some_and(|rgba| rgba[i] != truth.rgba[i])
+}
+
+/// Whether an answer is one that rounding leaves open. Of the right sphere only t is asked.
+fn explained(
+    scene: &Scene,
+    ray: &Ray,
+    band: fn(&Ray, &contract::Sphere) -> Option<crate::judge::band::Band>,
+    differs: bool,
+    id: u32,
+    t: f32,
+) -> Option<bool> {
+    let within = |range: Option<[f64; 2]>| range.is_some_and(|[lo, hi]| (lo..=hi).contains(&f64::from(t)));
+    if !differs && id == MISS {
+        return Some(t == f32::INFINITY);
+    }
+    if differs {
+        return Stand::new(ray, scene.spheres(), band).map(|stand| within(stand.range(id)));
+    }
+    let sphere = scene.spheres().get(id as usize)?;
+    band(ray, sphere).map(|band| within(band.may_hit))
+}
