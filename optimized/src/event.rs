@@ -1,5 +1,6 @@
 //! What a scene did that a plan's choices do not allow, as data with the place and the numbers.
 
+use crate::plan::Plan;
 use contract::{Size, SizeError};
 use thiserror::Error;
 
@@ -84,6 +85,12 @@ pub enum RenderError {
     Resolution {
         /// As asked for.
         cells: u8,
+    },
+    /// A plan with tiles that lacks what these need.
+    #[error("tiles need spheres listed once, by centre in lists, certified arithmetic, derived margins, and 1 to {limit} blocks on a side; the plan is: {plan}", limit = crate::tile::MAX_SIDE)]
+    Tile {
+        /// The plan.
+        plan: Plan,
     },
     /// What a clairvoyant frame was given belongs to another one.
     #[error("what is known belongs to a picture of {}x{}, that asked for has {}x{}", known.width(), known.height(), asked.width(), asked.height())]

@@ -3,6 +3,7 @@
 
 use crate::camera::{BLOCK, CameraLanes, middles};
 use crate::event::{Events, RenderError};
+use crate::grid::Memory;
 use crate::machine::Machine;
 use crate::plan::{Packet, Plan, Sharing};
 use crate::seen::{Counts, Seen, Worker};
@@ -47,6 +48,9 @@ pub struct Known {
 
 impl Known {
     /// From a picture that has been made.
+    ///
+    /// # Panics
+    /// Never: a picture has fewer pixels than u32 can number.
     #[must_use]
     pub fn of(image: &Image) -> Self {
         let (width, height) = (image.size.width(), image.size.height());
@@ -98,6 +102,7 @@ pub fn render<M: Machine + Send + Sync>(
     camera: &Camera,
     workers: usize,
     known: Option<&Known>,
+    memory: &mut Memory,
     rendering: &mut Rendering,
 ) -> Result<(), RenderError> {
     if let Some(known) = known
@@ -108,7 +113,7 @@ pub fn render<M: Machine + Send + Sync>(
     let start = Instant::now();
     rendering.events = Events::default();
     let seen = match known {
-        None => Seen::new(m, plan, scene, camera, &mut rendering.events)?,
+        None => Seen::new(m, plan, scene, camera, memory, &mut rendering.events)?,
         Some(_) => Seen::without_grid(plan, scene.spheres(), camera.eye()),
     };
     rendering.times.build = start.elapsed();
@@ -118,7 +123,7 @@ pub fn render<M: Machine + Send + Sync>(
     }
     let side = match plan.packet {
         Packet::Block => BLOCK,
-        Packet::Tile { side } => u32::from(side) * BLOCK / HH(),
+        Packet::Tile { side } => u32::from(side) * BLOCK,
     };
     let width = camera.size().width() as usize;
     let rows = width * side as usize;
@@ -129,16 +134,21 @@ pub fn render<M: Machine + Send + Sync>(
     let work = || {
         let mirrored = match (plan.sharing, known) {
             // The same grid with the same events once more; an error would have come the first time.
-            (Sharing::Mirrored, None) => Seen::new(m, plan, scene, camera, &mut Events::default()).ok(),
+            (Sharing::Mirrored, None) => {
+                Seen::new(m, plan, scene, camera, &mut Memory::default(), &mut Events::default()).ok()
+            }
             _ => None,
         };
         let seen = mirrored.as_ref().unwrap_or(&seen);
         if let (Packet::Tile { .. }, Some(grid)) = (plan.packet, &seen.grid) {
-            let mut tiles = Tiles::new(m, plan, scene, camera, grid);
+            let mut tiles = m.within(
+                #[inline(always)]
+                || Tiles::new(m, plan, scene, camera, grid),
+            );
             while let Some(mut stripe) = next() {
                 m.within(
                     #[inline(always)]
-                    || fill_tiles(&mut tiles, side * HH(), camera, &mut stripe),
+                    || fill_tiles(&mut tiles, side, camera, &mut stripe),
                 );
             }
             return tiles.counts();
@@ -161,6 +171,7 @@ pub fn render<M: Machine + Send + Sync>(
             counts.fold(Counts::default(), |sum, counts| sum + counts)
         })
     };
+    memory.take(seen.grid);
     rendering.times.trace = start.elapsed() - rendering.times.build;
     Ok(())
 }
@@ -192,7 +203,7 @@ fn fill<M: Machine>(
     }
 }
 
-/// Fills a stripe tile by tile.
+/// Fills a stripe tile by tile. It is cleared first as a whole: written row by row its pixels come into the cache as fast as they can.
 #[inline(always)]
 fn fill_tiles<M: Machine>(tiles: &mut Tiles<'_, M>, side: u32, camera: &Camera, stripe: &mut Stripe<'_>) {
     let y = [stripe.y, stripe.y + u32::try_from(stripe.ids.len() / stripe.width).expect("rows of an image")];
@@ -202,6 +213,3 @@ fn fill_tiles<M: Machine>(tiles: &mut Tiles<'_, M>, side: u32, camera: &Camera, 
         tiles.trace(Rect { x: [x, (x + side).min(width)], y }, stripe);
     }
 }
-
-#[allow(non_snake_case)]
-fn HH() -> u32 { static H: std::sync::OnceLock<u32> = std::sync::OnceLock::new(); *H.get_or_init(|| std::env::var("HH").ok().map_or(1, |s| s.parse().unwrap())) }

@@ -25,6 +25,9 @@ pub const MAX_CELLS: usize = 240;
 /// Cells a sphere should have for itself: λ of n = d ∛(λ N / V) (Wald et al. 2006 use 3 to 5).
 const DENSITY: f64 = 4.0;
 
+/// The same for tiles, whose cells are to hold about a row of lanes: measured, see [`crate::tile`].
+const TILE_DENSITY: f64 = 1.0 / 32.0;
+
 /// 1 + 2⁻²⁰: what is added to the largest reach covers the roundings of the distances it is compared with.
 const WIDER: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
 
@@ -66,9 +69,32 @@ pub struct Grid {
     storage: Storage,
 }
 
+/// Of a sphere that is in no cell.
+const NOWHERE: u32 = u32::MAX;
+
+/// What a grid for tiles was made in, kept for the next frame's.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    /// The cell of each sphere.
+    places: Vec<u32>,
+    offsets: Vec<u32>,
+    ids: Vec<u32>,
+    spheres: [Vec<f32>; 4],
+}
+
+impl Memory {
+    /// Takes back what a grid was made of.
+    pub fn take(&mut self, grid: Option<Grid>) {
+        if let Some(Grid { storage: Storage::Lists { offsets, ids, spheres }, .. }) = grid {
+            (self.offsets, self.ids, self.spheres) = (offsets, ids, spheres);
+        }
+    }
+}
+
 #[derive(Clone, Debug)]
 enum Storage {
     Queues(Vec<Queue>),
+    /// Besides ids, for tiles centres and radii in the same order, with as many numbers behind them as there are lanes.
     Lists { offsets: Vec<u32>, ids: Vec<u32>, spheres: [Vec<f32>; 4] },
 }
 
@@ -177,7 +203,7 @@ impl Grid {
             if by_center { WIDER * balls.iter().map(|ball| ball.radius).fold(0.0, f32::max) } else { 0.0 };
         let whole = whole(&boxes);
         let widest = balls.iter().map(|ball| f64::from(ball.radius)).fold(0.0, f64::max) * 2.001;
-        let mut n = resolution(&plan, &whole, balls.len(), widest)?;
+        let mut n = resolution(&plan, &whole, DENSITY * balls.len() as f64, widest)?;
         loop {
             let axes = [0, 1, 2].map(|i| Axis::new(m, whole[0][i], whole[1][i], n[i]));
             let cell_boxes: Vec<CellBox> =
@@ -213,69 +239,59 @@ impl Grid {
         }
     }
 
-    /// A grid over the centres of spheres, of which there is at least one, whose reach is their radius.
+    /// A grid for tiles: over the centres of spheres, of which there is at least one and whose reach is their radius, in the memory of
+    /// an earlier one. Large spheres are set apart; a tile looks as far around as the largest of the others.
     ///
     /// # Errors
     /// [`RenderError::Resolution`] for one that is out of range.
-    pub fn by_center<M: Machine>(m: M, plan: &Plan, spheres: &[Sphere]) -> Result<Self, RenderError> {
+    pub fn by_center<M: Machine>(
+        m: M,
+        plan: &Plan,
+        spheres: &[Sphere],
+        memory: &mut Memory,
+    ) -> Result<Self, RenderError> {
         let (whole, large_from) = survey(spheres);
-        let mut widen = 0.0f32;
-        let n = resolution(plan, &whole, spheres.len(), 0.0)?;
+        let n = resolution(plan, &whole, TILE_DENSITY * spheres.len() as f64, 0.0)?;
         let axes = [0, 1, 2].map(|i| Axis::new(m, whole[0][i], whole[1][i], n[i]));
-        let strides = strides(&axes);
-        let mut large = Vec::new();
-        let mut offsets = vec![0u32; cells(&axes) + 1];
-        let mut places = Vec::with_capacity(spheres.len().next_multiple_of(LANES));
+        let Memory { mut places, mut offsets, mut ids, spheres: mut rows } = std::mem::take(memory);
         m.within(
             #[inline(always)]
-            || {
-                for chunk in spheres.chunks(LANES) {
-                    let mut at = [[0.0; LANES]; 3];
-                    for (lane, sphere) in chunk.iter().enumerate() {
-                        for i in 0..3 {
-                            at[i][lane] = sphere.center[i];
-                        }
-                    }
-                    let cell = |i: usize| m.to_array_i(axes[i].cell(m, m.lanes(at[i])));
-                    let [x, y, z] = [cell(0), cell(1), cell(2)];
-                    for lane in 0..LANES {
-                        places.push(index(strides, [x[lane], y[lane], z[lane]]) as u32);
-                    }
-                }
-            },
+            || find_places(m, &axes, spheres, &mut places),
         );
-        places.truncate(spheres.len());
+        let (mut large, mut widen) = (Vec::new(), 0.0f32);
+        offsets.clear();
+        offsets.resize(cells(&axes) + 1, 0);
         for ((place, sphere), id) in places.iter_mut().zip(spheres).zip(0..) {
-            if sphere.radius > large_from {
+            if sphere.radius >= large_from {
                 large.push(id);
-                *place = u32::MAX;
+                *place = NOWHERE;
             } else {
                 widen = widen.max(sphere.radius);
-                offsets[*place as usize + 1] += 1;
+                offsets[*place as usize] += 1;
             }
         }
+        // Where each cell ends, from where it is filled downwards.
         let mut sum = 0;
         for offset in &mut offsets {
             sum += *offset;
             *offset = sum;
         }
         let kept = spheres.len() - large.len();
-        let mut ids = vec![0; kept];
-        let mut rows = [0; 4].map(|_| vec![0.0; kept + LANES]);
+        ids.resize(kept, 0);
+        for row in &mut rows {
+            row.resize(kept + LANES, 0.0);
+        }
+        let [x, y, z, r] = &mut rows;
         for ((&place, sphere), id) in places.iter().zip(spheres).zip(0..) {
-            if place != u32::MAX {
-                let next = &mut offsets[place as usize];
-                let at = *next as usize;
-                *next += 1;
-                ids[at] = id;
-                let [x, y, z, r] = &mut rows;
-                (x[at], y[at], z[at], r[at]) =
-                    (sphere.center[0], sphere.center[1], sphere.center[2], sphere.radius);
+            if place != NOWHERE {
+                let end = &mut offsets[place as usize];
+                *end -= 1;
+                let at = *end as usize;
+                let [cx, cy, cz] = sphere.center;
+                (ids[at], x[at], y[at], z[at], r[at]) = (id, cx, cy, cz, sphere.radius);
             }
         }
-        // Each offset has moved to the end of its cell, which is the beginning of the next.
-        offsets.rotate_right(1);
-        offsets[0] = 0;
+        memory.places = places;
         let storage = Storage::Lists { offsets, ids, spheres: rows };
         Ok(Self { axes, widen: WIDER * widen, large, storage })
     }
@@ -300,19 +316,15 @@ impl Grid {
         }
     }
 
-    /// The spheres that a range of cells lists: ids, and centres and radii, these with as many numbers behind them as there are lanes.
+    /// The spheres that a range of cells of a grid for tiles lists: ids, and centres and radii, these with as many numbers behind them as
+    /// there are lanes. Of a grid that is not for tiles, none.
     #[inline(always)]
     #[must_use]
     pub fn row(&self, [first, last]: [usize; 2]) -> (&[u32], [&[f32]; 4]) {
-        match &self.storage {
-            Storage::Queues(_) => todo!(),
-            Storage::Lists { offsets, ids, spheres } => {
-                let (start, end) = (offsets[first] as usize, offsets[last + 1] as usize);
-                let [x, y, z, r] = spheres;
-                let part = start..end + LANES;
-                (&ids[start..end], [&x[part.clone()], &y[part.clone()], &z[part.clone()], &r[part]])
-            }
-        }
+        let Storage::Lists { offsets, ids, spheres: [x, y, z, r] } = &self.storage else { return (&[], [&[]; 4]) };
+        let (start, end) = (offsets[first] as usize, offsets[last + 1] as usize);
+        let part = start..end + LANES;
+        (&ids[start..end], [&x[part.clone()], &y[part.clone()], &z[part.clone()], &r[part]])
     }
 
     /// How far apart in the list neighbours on each axis are.
@@ -410,14 +422,7 @@ fn fill_lists(plan: &Plan, axes: &[Axis; 3], balls: &[Bounds], boxes: &[CellBox]
             *next += 1;
         });
     }
-    let spheres = [0, 1, 2, 3].map(|i| {
-        let of = |id: &u32| {
-            let ball = &balls[*id as usize];
-            if i < 3 { ball.center[i] } else { ball.radius }
-        };
-        ids.iter().map(of).chain([0.0; LANES]).collect()
-    });
-    Some(Storage::Lists { offsets, ids, spheres })
+    Some(Storage::Lists { offsets, ids, spheres: Default::default() })
 }
 
 /// The cells of up to sixteen boxes.
@@ -446,37 +451,58 @@ fn whole(boxes: &[Bounds]) -> [[f32; 3]; 2] {
     })
 }
 
-/// The box around all centres, and the radius above which a sphere is large.
-fn survey(spheres: &[Sphere]) -> ([[f32; 3]; 2], f32) {
-    let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    // Radii by their exponent.
-    let mut counts = [0u32; 256];
-    for sphere in spheres {
-        for i in 0..3 {
-            let x = sphere.center[i];
-            lo[i] = if x < lo[i] { x } else { lo[i] };
-            hi[i] = if x > hi[i] { x } else { hi[i] };
+/// The cell of each sphere's centre.
+#[inline(always)]
+fn find_places<M: Machine>(m: M, axes: &[Axis; 3], spheres: &[Sphere], places: &mut Vec<u32>) {
+    let strides = strides(axes).map(|stride| u32::try_from(stride).expect("MAX_CELLS squared"));
+    places.clear();
+    for chunk in spheres.chunks(LANES) {
+        let [mut x, mut y, mut z] = [[0.0; LANES]; 3];
+        for (lane, sphere) in chunk.iter().enumerate() {
+            [x[lane], y[lane], z[lane]] = sphere.center;
         }
-        counts[(sphere.radius.to_bits() >> 23) as usize] += 1;
-    }
-    let few = spheres.len() / 64 + 32;
-    let mut above = 0;
-    let mut from = f32::INFINITY;
-    for exponent in (1..256).rev() {
-        above += counts[exponent] as usize;
-        if above > few {
-            break;
+        let [i, j, k] = [
+            m.to_array_i(axes[0].cell(m, m.lanes(x))),
+            m.to_array_i(axes[1].cell(m, m.lanes(y))),
+            m.to_array_i(axes[2].cell(m, m.lanes(z))),
+        ];
+        let mut cells = [0; LANES];
+        for lane in 0..LANES {
+            let cell = [i[lane].cast_unsigned(), j[lane].cast_unsigned(), k[lane].cast_unsigned()];
+            cells[lane] = cell[0] * strides[0] + cell[1] * strides[1] + cell[2] * strides[2];
         }
-        from = f32::from_bits((exponent as u32) << 23);
+        places.extend_from_slice(&cells[..chunk.len()]);
     }
-    // Nothing is gained if the others are as large.
-    ([lo, hi], from)
 }
 
-/// Cells on each axis. Chosen ones are cubes, about [`DENSITY`] a sphere; for eight corners they are wider than any
+/// The box around all centres, and the radius from which on a sphere is large: the least power of two that one in 64 and 32 more spheres
+/// reach at most.
+fn survey(spheres: &[Sphere]) -> ([[f32; 3]; 2], f32) {
+    let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    let mut of_exponent = [0usize; 256];
+    for sphere in spheres {
+        for (x, (lo, hi)) in sphere.center.into_iter().zip(lo.iter_mut().zip(&mut hi)) {
+            *lo = if x < *lo { x } else { *lo };
+            *hi = if x > *hi { x } else { *hi };
+        }
+        of_exponent[(sphere.radius.to_bits() >> 23) as usize] += 1;
+    }
+    let (mut large, mut from) = (0, f32::INFINITY);
+    for (exponent, count) in (0..256u32).zip(of_exponent).rev() {
+        large += count;
+        if large > spheres.len() / 64 + 32 {
+            break;
+        }
+        from = f32::from_bits(exponent << 23);
+    }
+    // Where all are alike, none is large.
+    ([lo, hi], if large == spheres.len() { f32::INFINITY } else { from })
+}
+
+/// Cells on each axis. Chosen ones are cubes, about as many as wanted; for eight corners they are wider than any
 /// sphere's box.
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "a rule of thumb")]
-fn resolution(plan: &Plan, [lo, hi]: &[[f32; 3]; 2], count: usize, widest: f64) -> Result<[i32; 3], RenderError> {
+fn resolution(plan: &Plan, [lo, hi]: &[[f32; 3]; 2], wanted: f64, widest: f64) -> Result<[i32; 3], RenderError> {
     let (Resolution::Fixed(limit) | Resolution::UpTo(limit)) = plan.resolution;
     if limit == 0 || usize::from(limit) > MAX_CELLS {
         return Err(RenderError::Resolution { cells: limit });
@@ -487,7 +513,7 @@ fn resolution(plan: &Plan, [lo, hi]: &[[f32; 3]; 2], count: usize, widest: f64) 
     let extent = [0, 1, 2].map(|i| f64::from(hi[i]) - f64::from(lo[i]));
     // An axis without extent (one sphere by centre) has one cell; it counts as one unit in the volume.
     let volume: f64 = extent.iter().filter(|e| **e > 0.0).product();
-    let per_unit = (DENSITY * count as f64 / volume).cbrt();
+    let per_unit = (wanted / volume).cbrt();
     Ok(extent.map(|e| {
         let n = ((e * per_unit).round() as i32).clamp(1, i32::from(limit));
         if plan.voxelizer == Voxelizer::EightCorners { n.min((e / widest) as i32).max(1) } else { n }

@@ -6,8 +6,8 @@
 //! The simple program is that loop. The departures from it, each in its module, in the order in which data
 //! flows: sixteen rays share each decision ([`machine`], [`camera`], [`sphere`]); a grid lists the spheres of
 //! each cell ([`margin`], [`grid`]); a packet meets only the cells its frustum overlaps ([`frustum`], [`walk`]);
-//! spheres outside the frustum's planes are dropped ([`cull`]); colours are computed for a block at once ([`shade`]);
-//! stripes of the image go to workers ([`frame`]). Which of them are taken, and how, is a [`Plan`].
+//! spheres outside the frustum's planes are dropped ([`cull`]); many blocks share one walk and hold its spheres by their outlines
+//! ([`tile`], [`silhouette`]); colours are computed for a block at once ([`shade`]); stripes of the image go to workers ([`frame`]). Which of them are taken, and how, is a [`Plan`].
 //!
 //! Kernels are generic over [`machine::Machine`] and free of memory access; the machines of the host are in
 //! [`host`].
@@ -75,6 +75,7 @@ pub use plan::Plan;
 pub use sphere::Form;
 
 use contract::{Camera, Scene};
+use grid::Memory;
 use machine::Machine;
 
 /// A grid tracer with its plan, level and number of workers chosen.
@@ -113,7 +114,7 @@ impl Tracer {
     /// # Errors
     /// [`RenderError::Size`] if there is no memory at all.
     pub fn session(&self) -> Result<Session, RenderError> {
-        Ok(Session { tracer: *self, rendering: Rendering::nothing()? })
+        Ok(Session { tracer: *self, memory: Memory::default(), rendering: Rendering::nothing()? })
     }
 }
 
@@ -121,6 +122,7 @@ impl Tracer {
 #[derive(Clone, Debug)]
 pub struct Session {
     tracer: Tracer,
+    memory: Memory,
     rendering: Rendering,
 }
 
@@ -154,7 +156,8 @@ impl Session {
         known: Option<&Known>,
     ) -> Result<&Rendering, RenderError> {
         let Tracer { plan, level, workers } = self.tracer;
-        level.run(Frame { plan, scene, camera, workers, known, rendering: &mut self.rendering })?;
+        let (memory, rendering) = (&mut self.memory, &mut self.rendering);
+        level.run(Frame { plan, scene, camera, workers, known, memory, rendering })?;
         Ok(&self.rendering)
     }
 }
@@ -165,6 +168,7 @@ struct Frame<'a> {
     camera: &'a Camera,
     workers: usize,
     known: Option<&'a Known>,
+    memory: &'a mut Memory,
     rendering: &'a mut Rendering,
 }
 
@@ -172,6 +176,6 @@ impl host::Work for Frame<'_> {
     type Output = Result<(), RenderError>;
 
     fn on<M: Machine + Send + Sync>(self, m: M) -> Self::Output {
-        frame::render(m, self.plan, self.scene, self.camera, self.workers, self.known, self.rendering)
+        frame::render(m, self.plan, self.scene, self.camera, self.workers, self.known, self.memory, self.rendering)
     }
 }

@@ -67,19 +67,29 @@ pub fn reach(margins: Margins, arithmetic: Arithmetic, f: [f32; 3], radius: f32)
     (reach as f32).next_up()
 }
 
+/// The farthest position.
+const FARTHEST: f32 = (1u32 << 30) as f32;
+
+/// Whether the derivation above holds for a sphere, with a camera that is in range.
+#[must_use]
+pub fn sphere_in_range(sphere: &Sphere) -> bool {
+    let [x, y, z] = sphere.center;
+    (sphere.radius >= 1.0 / FARTHEST)
+        & (sphere.radius <= FARTHEST)
+        & (x.abs() <= FARTHEST)
+        & (y.abs() <= FARTHEST)
+        & (z.abs() <= FARTHEST)
+}
+
 /// Whether the derivation above holds for a scene: no step of either form can over- or underflow.
 #[must_use]
 pub fn in_range(spheres: &[Sphere], camera: &Camera) -> bool {
-    let position = |x: f32| x.abs() <= (1u32 << 30) as f32;
-    let sphere = |s: &Sphere| {
-        s.radius >= 1.0 / (1u32 << 30) as f32 && position(s.radius) && s.center.iter().all(|&x| position(x))
-    };
     let (shortest, longest) = direction_lengths(camera);
     let million = f64::from(1u32 << 20);
-    camera.eye().iter().all(|&x| position(x))
+    camera.eye().iter().all(|&x| x.abs() <= FARTHEST)
         && shortest >= 1.0 / million
         && longest <= million
-        && spheres.iter().all(sphere)
+        && spheres.iter().all(sphere_in_range)
 }
 
 /// Lower and upper bounds of |d| over all pixels: the distance of the picture's plane from the eye, and the

@@ -7,13 +7,14 @@ use crate::certain::{self, Ball, Rays, Side};
 use crate::cull::{self, Planes};
 use crate::event::{Event, Events, RenderError};
 use crate::frustum::{BEYOND, Bundle, Heading, Slices};
-use crate::grid::{Bounds, Grid};
+use crate::grid::{Bounds, Grid, Memory};
 use crate::machine::{LANES, Machine, three};
 use crate::margin;
 use crate::plan::{Arithmetic, Cells, Culling, Margins, OnEvent, Packet, Plan, Voxelizer};
 use crate::double;
 use crate::settle::{ALL, Answers, Owner, Question};
 use crate::sphere::{Form, NONE, Nearest, Prepared};
+use crate::tile;
 use crate::walk::{Visitor, walk};
 use contract::{Camera, Scene, Sphere};
 
@@ -24,7 +25,7 @@ pub struct Seen {
     pub eye: [f32; 3],
     /// The plan.
     pub plan: Plan,
-    /// The spheres relative to the eye, by id.
+    /// The spheres relative to the eye, by id; none where tiles prepare what they need.
     pub spheres: Vec<Prepared>,
     /// Their bounds and the eye's side, if the plan's arithmetic is certified.
     pub bounds: Vec<(Bound, Side)>,
@@ -90,8 +91,20 @@ impl Seen {
         plan: Plan,
         scene: &Scene,
         camera: &Camera,
+        memory: &mut Memory,
         events: &mut Events,
     ) -> Result<Self, RenderError> {
+        let tiles = match plan.packet {
+            Packet::Block => false,
+            Packet::Tile { side } => {
+                let listed_once = plan.voxelizer == Voxelizer::ByCenter && plan.cells == Cells::Lists;
+                let certain = plan.arithmetic == Arithmetic::Certified && plan.margins == Margins::Derived;
+                if !listed_once || !certain || side == 0 || side > tile::MAX_SIDE {
+                    return Err(RenderError::Tile { plan });
+                }
+                true
+            }
+        };
         let scene = scene.spheres();
         let in_range = plan.margins == Margins::None || margin::in_range(scene, camera);
         if !in_range {
@@ -103,8 +116,8 @@ impl Seen {
         if !in_range || scene.is_empty() {
             return Ok(Self::without_grid(plan, scene, camera.eye()));
         }
-        if plan.packet != Packet::Block && plan.voxelizer == Voxelizer::ByCenter && plan.arithmetic == Arithmetic::Certified && plan.cells == Cells::Lists {
-            let grid = Some(Grid::by_center(m, &plan, scene)?);
+        if tiles {
+            let grid = Some(Grid::by_center(m, &plan, scene, memory)?);
             return Ok(Self { eye: camera.eye(), plan, spheres: Vec::new(), bounds: Vec::new(), grid });
         }
         let mut seen = Self::without_grid(plan, scene, camera.eye());

@@ -16,6 +16,8 @@ use crate::silhouette::{Outline, overlap};
 use crate::stripe::{Painter, Rect, Stripe};
 use contract::{Camera, Scene, Sphere};
 
+/// The most blocks on a side of a tile.
+pub const MAX_SIDE: u8 = 64;
 /// Candidates after which a tile's blocks are looked at before its walk goes on.
 const ROUND: usize = 256;
 /// Blocks on a side of a patch.
@@ -46,7 +48,7 @@ struct Few {
     /// Which candidates.
     index: Vec<u32>,
     /// How near they can be, and which.
-    order: Vec<i64>,
+    order: Vec<[i32; 2]>,
     /// Of each sixteen, the nearest of these and all later ones.
     nearest: Vec<f32>,
 }
@@ -137,8 +139,12 @@ impl<'a, M: Machine> Tiles<'a, M> {
         self.work.trace(&self.look, tile, stripe);
     }
 
-    #[allow(missing_docs)]
-    pub fn clear(&self, tile: Rect, stripe: &mut Stripe<'_>) { self.look.painter.clear(tile, stripe) }
+    /// Makes misses of all pixels; a tile writes those that hit.
+    #[inline(always)]
+    pub fn clear(&self, pixels: Rect, stripe: &mut Stripe<'_>) {
+        self.look.painter.clear(pixels, stripe);
+    }
+
     /// What they cost.
     #[must_use]
     pub fn counts(&self) -> Counts {
@@ -348,7 +354,7 @@ impl<M: Machine> Work<M> {
                     break;
                 }
                 if let Some(found) = rays.find(m, ball, ahead) {
-                    nearest = nearest.meet(m, &found, index as i32);
+                    nearest = nearest.meet(m, &found, few.index[i].cast_signed());
                 }
             }
             chunk += LANES;
@@ -711,13 +717,13 @@ impl Few {
                 // Floats in their order, as integers.
                 let near = o.near[i].to_bits().cast_signed();
                 let near = near ^ ((near >> 31) & i32::MAX);
-                self.order.push(i64::from(near) << 32 | i as i64);
+                self.order.push([near, i32::try_from(i).expect("as many as ids")]);
             }
         }
-        self.order.sort_unstable();
-        for &key in &self.order {
-            let i = (key & 0xffff_ffff) as usize;
-            self.index.push(i as u32);
+        self.order.sort_unstable_by_key(|&[near, _]| near);
+        for &[_, i] in &self.order {
+            self.index.push(i.cast_unsigned());
+            let i = i.unsigned_abs() as usize;
             self.outlines.push([o.lo[0][i], o.lo[1][i]], [o.hi[0][i], o.hi[1][i]], o.near[i]);
         }
         self.outlines.pad();
