@@ -139,8 +139,7 @@ impl Rule {
 
         let eta = (1.0 + u) / (1.0 - beta) - 1.0;
         let tau = (1.0 + eta) * (1.0 + u);
-        let across =
-            [(2.0f64 / 3.0).sqrt() * (g2 + g3 * (1.0 + g2)), 0.5f64.sqrt() * (1.0 + g3) * (k + u)];
+        let across = [(2.0f64 / 3.0).sqrt() * (g2 + g3 * (1.0 + g2)), 0.5f64.sqrt() * (1.0 + g3) * (k + u)];
         let offset = [tau * across[0] + (tau - 1.0), tau * across[1]];
         let middle = [offset[0] + u * (1.0 + offset[0]), u + offset[1] + u * (1.0 + u + offset[1])];
         // √(a r² + b r m + c m²) <= √a r + √b (r + m) / 2 + √c m.

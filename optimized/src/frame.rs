@@ -72,9 +72,10 @@ impl Known {
         known
     }
 
-    /// The owners in the block whose first pixel is (x, y).
+    /// The owners of the block whose first pixel is (x, y).
     #[inline(always)]
-    fn block(&self, x: u32, y: u32) -> &[u32] {
+    #[must_use]
+    pub fn block(&self, [x, y]: [u32; 2]) -> &[u32] {
         let index = (y / BLOCK * self.size.width().div_ceil(BLOCK) + x / BLOCK) as usize;
         &self.ids[self.offsets[index] as usize..self.offsets[index + 1] as usize]
     }
@@ -88,7 +89,22 @@ impl Rendering {
     }
 }
 
-/// Renders a frame with so many workers into the memory of the one before; the picture depends on neither.
+/// What is to be rendered, and how.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame<'a> {
+    /// The plan.
+    pub plan: Plan,
+    /// The scene.
+    pub scene: &'a Scene,
+    /// The camera.
+    pub camera: &'a Camera,
+    /// How many workers; the picture does not depend on it.
+    pub workers: usize,
+    /// What is known of the picture beforehand, if anything.
+    pub known: Option<&'a Known>,
+}
+
+/// Renders a frame into the memory of the one before.
 ///
 /// # Errors
 /// [`RenderError`] if the image cannot be had, the plan refuses what the scene does, or what is known is of another size.
@@ -97,14 +113,11 @@ impl Rendering {
 /// If a worker panicked.
 pub fn render<M: Machine + Send + Sync>(
     m: M,
-    plan: Plan,
-    scene: &Scene,
-    camera: &Camera,
-    workers: usize,
-    known: Option<&Known>,
+    frame: &Frame<'_>,
     memory: &mut Memory,
     rendering: &mut Rendering,
 ) -> Result<(), RenderError> {
+    let Frame { plan, scene, camera, workers, known } = *frame;
     if let Some(known) = known
         && known.size != camera.size()
     {
@@ -112,10 +125,7 @@ pub fn render<M: Machine + Send + Sync>(
     }
     let start = Instant::now();
     rendering.events = Events::default();
-    let seen = match known {
-        None => Seen::new(m, plan, scene, camera, memory, &mut rendering.events)?,
-        Some(_) => Seen::without_grid(plan, scene.spheres(), camera.eye()),
-    };
+    let seen = Seen::new(m, plan, scene, camera, memory, &mut rendering.events)?;
     rendering.times.build = start.elapsed();
     let image = &mut rendering.image;
     if image.size != camera.size() {
@@ -132,12 +142,12 @@ pub fn render<M: Machine + Send + Sync>(
     let stripes = Mutex::new(stripes.map(|(y, ((ids, t), rgba))| Stripe { y, width, ids, t, rgba }));
     let next = || stripes.lock().expect("no worker panics while it holds the list").next();
     let work = || {
-        let mirrored = match (plan.sharing, known) {
+        let mirrored = match plan.sharing {
+            Sharing::Shared => None,
             // The same grid with the same events once more; an error would have come the first time.
-            (Sharing::Mirrored, None) => {
+            Sharing::Mirrored => {
                 Seen::new(m, plan, scene, camera, &mut Memory::default(), &mut Events::default()).ok()
             }
-            _ => None,
         };
         let seen = mirrored.as_ref().unwrap_or(&seen);
         if let (Packet::Tile { .. }, Some(grid)) = (plan.packet, &seen.grid) {
@@ -148,7 +158,7 @@ pub fn render<M: Machine + Send + Sync>(
             while let Some(mut stripe) = next() {
                 m.within(
                     #[inline(always)]
-                    || fill_tiles(&mut tiles, side, camera, &mut stripe),
+                    || fill_tiles(&mut tiles, side, camera, known, &mut stripe),
                 );
             }
             return tiles.counts();
@@ -195,7 +205,7 @@ fn fill<M: Machine>(
             let block = lanes.block(m, xs, ys);
             let owners = known.map(
                 #[inline(always)]
-                |known| known.block(x, y),
+                |known| known.block([x, y]),
             );
             let answers = seen.trace(m, scene.spheres(), &block, owners, worker);
             painter.write(m, block.dir, &answers, [x, y], ALL, stripe);
@@ -205,11 +215,17 @@ fn fill<M: Machine>(
 
 /// Fills a stripe tile by tile. It is cleared first as a whole: written row by row its pixels come into the cache as fast as they can.
 #[inline(always)]
-fn fill_tiles<M: Machine>(tiles: &mut Tiles<'_, M>, side: u32, camera: &Camera, stripe: &mut Stripe<'_>) {
+fn fill_tiles<M: Machine>(
+    tiles: &mut Tiles<'_, M>,
+    side: u32,
+    camera: &Camera,
+    known: Option<&Known>,
+    stripe: &mut Stripe<'_>,
+) {
     let y = [stripe.y, stripe.y + u32::try_from(stripe.ids.len() / stripe.width).expect("rows of an image")];
     let width = camera.size().width();
     tiles.clear(Rect { x: [0, width], y }, stripe);
     for x in (0..width).step_by(side as usize) {
-        tiles.trace(Rect { x: [x, (x + side).min(width)], y }, stripe);
+        tiles.trace(Rect { x: [x, (x + side).min(width)], y }, known, stripe);
     }
 }

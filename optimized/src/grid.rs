@@ -95,7 +95,11 @@ impl Memory {
 enum Storage {
     Queues(Vec<Queue>),
     /// Besides ids, for tiles centres and radii in the same order, with as many numbers behind them as there are lanes.
-    Lists { offsets: Vec<u32>, ids: Vec<u32>, spheres: [Vec<f32>; 4] },
+    Lists {
+        offsets: Vec<u32>,
+        ids: Vec<u32>,
+        spheres: [Vec<f32>; 4],
+    },
 }
 
 impl Bounds {
@@ -225,7 +229,9 @@ impl Grid {
             }
             if plan.cells == Cells::Queue {
                 match fill_queues(m, &plan, &axes, balls, &cell_boxes, events) {
-                    Ok(queues) => return Ok(Self { axes, widen, large: Vec::new(), storage: Storage::Queues(queues) }),
+                    Ok(queues) => {
+                        return Ok(Self { axes, widen, large: Vec::new(), storage: Storage::Queues(queues) });
+                    }
                     Err(full) => {
                         plan.cells = taken(&plan, &full, plan.cells, Cells::Lists)?;
                         events.push(full);
@@ -321,7 +327,9 @@ impl Grid {
     #[inline(always)]
     #[must_use]
     pub fn row(&self, [first, last]: [usize; 2]) -> (&[u32], [&[f32]; 4]) {
-        let Storage::Lists { offsets, ids, spheres: [x, y, z, r] } = &self.storage else { return (&[], [&[]; 4]) };
+        let Storage::Lists { offsets, ids, spheres: [x, y, z, r] } = &self.storage else {
+            return (&[], [&[]; 4]);
+        };
         let (start, end) = (offsets[first] as usize, offsets[last + 1] as usize);
         let part = start..end + LANES;
         (&ids[start..end], [&x[part.clone()], &y[part.clone()], &z[part.clone()], &r[part]])
@@ -502,7 +510,12 @@ fn survey(spheres: &[Sphere]) -> ([[f32; 3]; 2], f32) {
 /// Cells on each axis. Chosen ones are cubes, about as many as wanted; for eight corners they are wider than any
 /// sphere's box.
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "a rule of thumb")]
-fn resolution(plan: &Plan, [lo, hi]: &[[f32; 3]; 2], wanted: f64, widest: f64) -> Result<[i32; 3], RenderError> {
+fn resolution(
+    plan: &Plan,
+    [lo, hi]: &[[f32; 3]; 2],
+    wanted: f64,
+    widest: f64,
+) -> Result<[i32; 3], RenderError> {
     let (Resolution::Fixed(limit) | Resolution::UpTo(limit)) = plan.resolution;
     if limit == 0 || usize::from(limit) > MAX_CELLS {
         return Err(RenderError::Resolution { cells: limit });

@@ -75,6 +75,7 @@ pub use plan::Plan;
 pub use sphere::Form;
 
 use contract::{Camera, Scene};
+use frame::Frame;
 use grid::Memory;
 use machine::Machine;
 
@@ -135,8 +136,9 @@ impl Session {
         self.frame(scene, camera, None)
     }
 
-    /// Renders a frame of which it is known what is seen in each block: no grid, no culling, no sphere in vain. It is the same kernel, and
-    /// so a limit to what a better way to the spheres could bring.
+    /// Renders a frame of which it is known what is seen in each block: no walk, no culling, no sphere in vain. All else is done as ever, and
+    /// so it is a limit to what a better way to the spheres could bring. (The grid is built too, and left alone; its time is
+    /// [`Times::build`](frame::Times::build).)
     ///
     /// # Errors
     /// As [`Tracer::render`], and [`RenderError::Known`].
@@ -156,26 +158,22 @@ impl Session {
         known: Option<&Known>,
     ) -> Result<&Rendering, RenderError> {
         let Tracer { plan, level, workers } = self.tracer;
-        let (memory, rendering) = (&mut self.memory, &mut self.rendering);
-        level.run(Frame { plan, scene, camera, workers, known, memory, rendering })?;
+        let frame = Frame { plan, scene, camera, workers, known };
+        level.run(Work { frame, memory: &mut self.memory, rendering: &mut self.rendering })?;
         Ok(&self.rendering)
     }
 }
 
-struct Frame<'a> {
-    plan: Plan,
-    scene: &'a Scene,
-    camera: &'a Camera,
-    workers: usize,
-    known: Option<&'a Known>,
+struct Work<'a> {
+    frame: Frame<'a>,
     memory: &'a mut Memory,
     rendering: &'a mut Rendering,
 }
 
-impl host::Work for Frame<'_> {
+impl host::Work for Work<'_> {
     type Output = Result<(), RenderError>;
 
     fn on<M: Machine + Send + Sync>(self, m: M) -> Self::Output {
-        frame::render(m, self.plan, self.scene, self.camera, self.workers, self.known, self.memory, self.rendering)
+        frame::render(m, &self.frame, self.memory, self.rendering)
     }
 }

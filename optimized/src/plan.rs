@@ -241,11 +241,14 @@ pub enum Reason {
 impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::OutOfRange => {
-                f.write_str("a sphere lies beyond the range of the margins: all spheres meet all rays, in 4x4 blocks")
-            }
+            Self::OutOfRange => f.write_str(
+                "a sphere lies beyond the range of the margins: all spheres meet all rays, in 4x4 blocks",
+            ),
             Self::Few { spheres } => {
-                write!(f, "{spheres} spheres, fewer than {MANY}: large tiles see their candidates in one round")
+                write!(
+                    f,
+                    "{spheres} spheres, fewer than {MANY}: large tiles see their candidates in one round"
+                )
             }
             Self::Many { spheres } => {
                 write!(f, "{spheres} spheres, not fewer than {MANY}: small tiles need fewer rounds")

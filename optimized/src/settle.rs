@@ -41,7 +41,8 @@ impl<M: Machine> Answers<M> {
     #[inline(always)]
     pub fn new(m: M, t: M::F, id: M::I, spheres: &[Sphere]) -> Self {
         let hits = m.to_bits(m.lt_i(id, m.splat_i(NONE)));
-        let owner = |id: i32| Owner { id, sphere: &spheres[id.unsigned_abs() as usize], error: f32::INFINITY };
+        let owner =
+            |id: i32| Owner { id, sphere: &spheres[id.unsigned_abs() as usize], error: f32::INFINITY };
         Self { t, owners: Owners::of(m, id, hits, owner) }
     }
 }

@@ -6,6 +6,7 @@ use crate::camera::{BLOCK, CameraLanes, spread};
 use crate::certain::{Ball, Nearest, Rays, Side};
 use crate::cull;
 use crate::double::short_error;
+use crate::frame::Known;
 use crate::frustum::{BEYOND, Frustum, Heading, Slices};
 use crate::grid::Grid;
 use crate::machine::{LANES, Machine, Site, three};
@@ -22,6 +23,10 @@ pub const MAX_SIDE: u8 = 64;
 const ROUND: usize = 256;
 /// Blocks on a side of a patch.
 const PATCH: u32 = 8;
+
+/// Of a sphere that is no candidate, and of one that lies behind the rays.
+const NOT_TAKEN: u32 = u32::MAX;
+const NOT_AHEAD: u32 = u32::MAX - 1;
 
 /// Outlines, and how near what they belong to can be.
 #[derive(Clone, Debug, Default)]
@@ -48,9 +53,7 @@ struct Few {
     /// Which candidates.
     index: Vec<u32>,
     /// How near they can be, and which.
-    order: Vec<[i32; 2]>,
-    /// Of each sixteen, the nearest of these and all later ones.
-    nearest: Vec<f32>,
+    order: Vec<(i32, u32)>,
 }
 
 /// Ranges of slopes of many rectangles.
@@ -93,6 +96,8 @@ struct Work<M: Machine> {
     /// Lanes that are written.
     done: Vec<u32>,
     possible: Vec<u32>,
+    /// By id the number of a sphere among the candidates, where what is seen is known.
+    numbers: Vec<u32>,
     finished: Vec<Finished<M>>,
 }
 
@@ -128,6 +133,7 @@ impl<'a, M: Machine> Tiles<'a, M> {
             closed: Vec::new(),
             done: Vec::new(),
             possible: Vec::new(),
+            numbers: Vec::new(),
             finished: Vec::new(),
         };
         Self { look, work }
@@ -135,8 +141,8 @@ impl<'a, M: Machine> Tiles<'a, M> {
 
     /// Traces a tile.
     #[inline(always)]
-    pub fn trace(&mut self, tile: Rect, stripe: &mut Stripe<'_>) {
-        self.work.trace(&self.look, tile, stripe);
+    pub fn trace(&mut self, tile: Rect, known: Option<&Known>, stripe: &mut Stripe<'_>) {
+        self.work.trace(&self.look, tile, known, stripe);
     }
 
     /// Makes misses of all pixels; a tile writes those that hit.
@@ -154,7 +160,7 @@ impl<'a, M: Machine> Tiles<'a, M> {
 
 impl<M: Machine> Work<M> {
     #[inline(always)]
-    fn trace(&mut self, look: &Look<'_, M>, tile: Rect, stripe: &mut Stripe<'_>) {
+    fn trace(&mut self, look: &Look<'_, M>, tile: Rect, known: Option<&Known>, stripe: &mut Stripe<'_>) {
         let corners = look.corners(tile);
         let [columns, rows] = tile.squares(BLOCK);
         let blocks = (columns * rows) as usize;
@@ -174,7 +180,7 @@ impl<M: Machine> Work<M> {
             }
             // Where all corners are steeper to the same side, so are the rays between them.
             if any == [true; 4] {
-                self.pass(look, heading, &along, tile, pure, stripe);
+                self.pass(look, heading, &along, tile, pure, known, stripe);
             }
             if pure {
                 return;
@@ -184,6 +190,7 @@ impl<M: Machine> Work<M> {
 
     /// The rays of a tile that have a heading; `pure`: all of them have.
     #[inline(always)]
+    #[allow(clippy::too_many_arguments, reason = "a tile's state")]
     fn pass(
         &mut self,
         look: &Look<'_, M>,
@@ -191,6 +198,7 @@ impl<M: Machine> Work<M> {
         corners: &[[f32; 3]; 4],
         tile: Rect,
         pure: bool,
+        known: Option<&Known>,
         stripe: &mut Stripe<'_>,
     ) {
         let m = look.m;
@@ -213,7 +221,11 @@ impl<M: Machine> Work<M> {
             flags.resize(blocks, false);
         }
         self.candidates.clear();
-        self.gather_large(look, heading, range);
+        if let Some(known) = known {
+            self.known(look, heading, tile, pure, known, stripe);
+            return;
+        }
+        self.take(look, heading, range, &look.grid.large);
         let (mut slice, mut from) = (0, 0);
         loop {
             while slice < slices.count && self.candidates.ids.len() < from + ROUND {
@@ -230,6 +242,70 @@ impl<M: Machine> Work<M> {
             self.candidates.trim();
             from = self.candidates.ids.len();
         }
+    }
+
+    /// Shows each block the spheres that are known to own pixels of it.
+    #[inline(always)]
+    fn known(
+        &mut self,
+        look: &Look<'_, M>,
+        heading: Heading,
+        tile: Rect,
+        pure: bool,
+        known: &Known,
+        stripe: &mut Stripe<'_>,
+    ) {
+        let m = look.m;
+        let everywhere = [m.splat(f32::NEG_INFINITY), m.splat(f32::INFINITY)];
+        let round = Round { heading, pure, from: 0, all: true, end: 0.0 };
+        let [columns, rows] = tile.squares(BLOCK);
+        let corner = |i: u32, j: u32| [tile.x[0] + i * BLOCK, tile.y[0] + j * BLOCK];
+        // Each sphere is prepared once for the tile.
+        self.numbers.resize(look.scene.spheres().len(), NOT_TAKEN);
+        let mut owners = std::mem::take(&mut self.possible);
+        owners.clear();
+        for j in 0..rows {
+            for i in 0..columns {
+                for &id in known.block(corner(i, j)) {
+                    if self.numbers[id as usize] == NOT_TAKEN {
+                        self.numbers[id as usize] = NOT_AHEAD;
+                        owners.push(id);
+                    }
+                }
+            }
+        }
+        self.take(look, heading, [everywhere; 2], &owners);
+        self.candidates.outlines.pad();
+        for (number, &id) in (0..).zip(&self.candidates.ids) {
+            self.numbers[id as usize] = number;
+        }
+        for j in 0..rows {
+            for i in 0..columns {
+                let (at, corner) = ((j * columns + i) as usize, corner(i, j));
+                let owners = known.block(corner);
+                if owners.is_empty() {
+                    continue;
+                }
+                let Some((rays, wanted)) = self.rays(look, round, tile, corner, at) else { continue };
+                let mut nearest = Nearest::none(m);
+                for &id in owners {
+                    let number = self.numbers[id as usize];
+                    if number != NOT_AHEAD {
+                        let ball = &self.candidates.balls[number as usize];
+                        let ahead = m.le(m.splat(self.candidates.outlines.near[number as usize]), nearest.hi);
+                        if let Some(found) = rays.find(m, ball, ahead) {
+                            nearest = nearest.meet(m, &found, number.cast_signed());
+                        }
+                    }
+                }
+                self.close(m, at, corner, wanted, &nearest);
+            }
+            self.finish(look, tile, stripe);
+        }
+        for &id in &owners {
+            self.numbers[id as usize] = NOT_TAKEN;
+        }
+        self.possible = owners;
     }
 
     /// Takes the spheres of a slice's cells that the tile may see.
@@ -305,7 +381,7 @@ impl<M: Machine> Work<M> {
         corner: [u32; 2],
         at: usize,
     ) -> bool {
-        let (m, heading) = (look.m, round.heading);
+        let m = look.m;
         let range = self.blocks.get(m, at);
         let count = few.index.len();
         let (mut chunk, mut bits) = (0, 0);
@@ -319,40 +395,18 @@ impl<M: Machine> Work<M> {
         if bits == 0 && !self.touched[at] {
             return round.all;
         }
-        let mut dir = look.directions(tile, corner);
-        let mut wanted = ALL;
-        if !round.pure {
-            let own = heading.has(m, heading.along_lanes(m, dir));
-            wanted = m.to_bits(own) & !self.done[at];
-            if wanted == 0 {
-                return true;
-            }
-            let lane = wanted.trailing_zeros() as usize;
-            dir = three(
-                dir,
-                #[inline(always)]
-                |d| m.select(own, d, m.splat(m.to_array(d)[lane])),
-            );
-        }
-        let [a, sy, sz] = heading.along_lanes(m, dir);
-        let rays = Rays::new(m, [m.div(sy, a), m.div(sz, a)]);
+        let Some((rays, wanted)) = self.rays(look, round, tile, corner, at) else { return true };
         let mut nearest = if self.touched[at] { self.nearest[at] } else { Nearest::none(m) };
-        while chunk < count {
-            if bits != 0 {
-                let near = m.splat(few.nearest[chunk / LANES]);
-                if !m.any(m.le(near, nearest.hi), Site::Unfinished) {
-                    break;
-                }
-            }
+        'all: while chunk < count {
             while bits != 0 {
                 let i = chunk + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
-                let index = few.index[i] as usize;
-                let ball = &self.candidates.balls[index];
                 let ahead = m.le(m.splat(few.outlines.near[i]), nearest.hi);
+                // The nearest come first, so no later one is nearer.
                 if !m.any(ahead, Site::Ahead) {
-                    break;
+                    break 'all;
                 }
+                let ball = &self.candidates.balls[few.index[i] as usize];
                 if let Some(found) = rays.find(m, ball, ahead) {
                     nearest = nearest.meet(m, &found, few.index[i].cast_signed());
                 }
@@ -371,10 +425,46 @@ impl<M: Machine> Work<M> {
             (self.nearest[at], self.touched[at]) = (nearest, true);
             return false;
         }
+        self.close(m, at, corner, wanted, &nearest);
+        true
+    }
+
+    /// A block's rays of the round's heading, and which lanes they are; in the other lanes one of them is repeated. `None` if there are none.
+    #[inline(always)]
+    fn rays(
+        &self,
+        look: &Look<'_, M>,
+        round: Round,
+        tile: Rect,
+        corner: [u32; 2],
+        at: usize,
+    ) -> Option<(Rays<M>, u32)> {
+        let (m, heading) = (look.m, round.heading);
+        let mut along = heading.along_lanes(m, look.directions(tile, corner));
+        let mut wanted = ALL;
+        if !round.pure {
+            let own = heading.has(m, along);
+            wanted = m.to_bits(own) & !self.done[at];
+            if wanted == 0 {
+                return None;
+            }
+            let lane = wanted.trailing_zeros() as usize;
+            along = three(
+                along,
+                #[inline(always)]
+                |d| m.select(own, d, m.splat(m.to_array(d)[lane])),
+            );
+        }
+        let [a, y, z] = along;
+        Some((Rays::new(m, [m.div(y, a), m.div(z, a)]), wanted))
+    }
+
+    /// Puts a block among those that are finished.
+    #[inline(always)]
+    fn close(&mut self, m: M, at: usize, corner: [u32; 2], wanted: u32, nearest: &Nearest<M>) {
         self.done[at] |= wanted;
         let marked = m.to_bits(nearest.marked(m)) & wanted;
         self.finished.push(Finished { at, corner, wanted, marked, id: nearest.id });
-        true
     }
 
     /// Answers and colours of the blocks that are finished. Done for many at once, since it has hardly a branch, and the processor
@@ -400,7 +490,8 @@ impl<M: Machine> Work<M> {
             );
             let question = Question { eye: look.camera.eye(), dir: dirs, spheres };
             let (wanted, marked) = (block.wanted, block.marked);
-            let answers = question.settle(m, block.id, marked, owner, &self.possible, wanted, &mut self.counts);
+            let answers =
+                question.settle(m, block.id, marked, owner, &self.possible, wanted, &mut self.counts);
             look.painter.write(m, dir, &answers, block.corner, wanted, stripe);
         }
         self.finished.clear();
@@ -505,10 +596,7 @@ impl<M: Machine> Look<'_, M> {
             for column in (0..columns).step_by(LANES) {
                 let first = m.splat((tile.x[0] + column * side) as f32 + 0.5);
                 let x = m.add(first, m.mul(m.lanes(NUMBERS), m.splat(size)));
-                let xs = [
-                    m.min(x, m.splat(last_x)),
-                    m.min(m.add(x, m.splat(size - 1.0)), m.splat(last_x)),
-                ];
+                let xs = [m.min(x, m.splat(last_x)), m.min(m.add(x, m.splat(size - 1.0)), m.splat(last_x))];
                 let through = [
                     self.lanes.directions(m, xs[0], ys[0]),
                     self.lanes.directions(m, xs[1], ys[0]),
@@ -546,11 +634,11 @@ impl<M: Machine> Work<M> {
         }
     }
 
-    /// Takes the large spheres that the tile may see.
+    /// Takes of spheres those that the tile may see.
     #[inline(always)]
-    fn gather_large(&mut self, look: &Look<'_, M>, heading: Heading, range: [[M::F; 2]; 2]) {
-        self.counts.candidates += look.grid.large.len() as u64;
-        for ids in look.grid.large.chunks(LANES) {
+    fn take(&mut self, look: &Look<'_, M>, heading: Heading, range: [[M::F; 2]; 2], ids: &[u32]) {
+        self.counts.candidates += ids.len() as u64;
+        for ids in ids.chunks(LANES) {
             let mut world = [[0.0; LANES]; 4];
             for (lane, &id) in ids.iter().enumerate() {
                 let Sphere { center: [x, y, z], radius, .. } = look.scene.spheres()[id as usize];
@@ -595,7 +683,21 @@ impl<M: Machine> Work<M> {
             let slack = m.mul(m.add(ff, rr), m.splat(1.0 / (1u32 << 20) as f32));
             let outside = m.to_bits(m.lt(m.add(rr, slack), ff));
             let inside = m.to_bits(m.lt(m.add(ff, slack), rr));
-            let fields = [c[0], c[1], c[2], rr, above, below, root, outline.near, outline.lo[0], outline.lo[1], outline.hi[0], outline.hi[1], short_error(m, magnitude, radius)];
+            let fields = [
+                c[0],
+                c[1],
+                c[2],
+                rr,
+                above,
+                below,
+                root,
+                outline.near,
+                outline.lo[0],
+                outline.lo[1],
+                outline.hi[0],
+                outline.hi[1],
+                short_error(m, magnitude, radius),
+            ];
             let mut rows = [[0.0; LANES]; 13];
             for (row, field) in rows.iter_mut().zip(fields) {
                 *row = m.to_array(field);
@@ -604,7 +706,13 @@ impl<M: Machine> Work<M> {
                 let lane = kept.trailing_zeros() as usize;
                 kept &= kept - 1;
                 let get = |i: usize| rows[i][lane];
-                let side = if outside >> lane & 1 != 0 { Side::Outside } else if inside >> lane & 1 != 0 { Side::Inside } else { Side::Unknown };
+                let side = if outside >> lane & 1 != 0 {
+                    Side::Outside
+                } else if inside >> lane & 1 != 0 {
+                    Side::Inside
+                } else {
+                    Side::Unknown
+                };
                 let list = &mut self.candidates;
                 list.balls.push(Ball {
                     center: [get(0), get(1), get(2)],
@@ -656,9 +764,13 @@ impl Outlines {
     /// Fills the last sixteen up with what nothing overlaps.
     #[inline(always)]
     fn pad(&mut self) {
-        while !self.near.len().is_multiple_of(LANES) {
-            self.push([f32::INFINITY; 2], [f32::NEG_INFINITY; 2], f32::INFINITY);
-        }
+        let count = self.near.len().next_multiple_of(LANES);
+        let ([lo_y, lo_z], [hi_y, hi_z]) = (&mut self.lo, &mut self.hi);
+        lo_y.resize(count, f32::INFINITY);
+        lo_z.resize(count, f32::INFINITY);
+        hi_y.resize(count, f32::NEG_INFINITY);
+        hi_z.resize(count, f32::NEG_INFINITY);
+        self.near.resize(count, f32::INFINITY);
     }
 
     /// Which of the sixteen from there on overlap a range.
@@ -698,42 +810,47 @@ impl Candidates {
 }
 
 impl Few {
+    fn clear(&mut self) {
+        self.order.clear();
+        self.index.clear();
+        self.outlines.truncate(0);
+    }
+
+    /// Takes a candidate.
+    #[inline(always)]
+    fn push(&mut self, near: f32, number: u32) {
+        // As whole numbers floats have their own order, once the negative ones are turned round.
+        let bits = near.to_bits().cast_signed();
+        self.order.push((bits ^ ((bits >> 31) & i32::MAX), number));
+    }
+
+    /// Ends it: the nearest come first.
+    #[inline(always)]
+    fn close(&mut self, o: &Outlines) {
+        self.order.sort_unstable();
+        for &(_, number) in &self.order {
+            let i = number as usize;
+            self.index.push(number);
+            self.outlines.push([o.lo[0][i], o.lo[1][i]], [o.hi[0][i], o.hi[1][i]], o.near[i]);
+        }
+        self.outlines.pad();
+    }
+
     /// Those of the candidates from there on that overlap a range.
     #[inline(always)]
     fn take<M: Machine>(&mut self, m: M, all: &Candidates, from: usize, range: [[M::F; 2]; 2]) {
-        self.index.clear();
-        self.order.clear();
-        self.outlines.truncate(0);
-        self.nearest.clear();
-        let o = &all.outlines;
+        self.clear();
         for chunk in (from / LANES * LANES..all.ids.len()).step_by(LANES) {
-            let mut bits = o.overlapping(m, chunk, range);
+            let mut bits = all.outlines.overlapping(m, chunk, range);
             if chunk < from {
                 bits &= ALL << (from - chunk);
             }
             while bits != 0 {
                 let i = chunk + bits.trailing_zeros() as usize;
                 bits &= bits - 1;
-                // Floats in their order, as integers.
-                let near = o.near[i].to_bits().cast_signed();
-                let near = near ^ ((near >> 31) & i32::MAX);
-                self.order.push([near, i32::try_from(i).expect("as many as ids")]);
+                self.push(all.outlines.near[i], u32::try_from(i).expect("as many as ids"));
             }
         }
-        self.order.sort_unstable_by_key(|&[near, _]| near);
-        for &[_, i] in &self.order {
-            self.index.push(i.cast_unsigned());
-            let i = i.unsigned_abs() as usize;
-            self.outlines.push([o.lo[0][i], o.lo[1][i]], [o.hi[0][i], o.hi[1][i]], o.near[i]);
-        }
-        self.outlines.pad();
-        let mut least = f32::INFINITY;
-        for chunk in self.outlines.near.chunks(LANES).rev() {
-            for &near in chunk {
-                least = least.min(near);
-            }
-            self.nearest.push(least);
-        }
-        self.nearest.reverse();
+        self.close(&all.outlines);
     }
 }
