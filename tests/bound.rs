@@ -1,7 +1,7 @@
 //! Does the error bound of the f32 stage hold, and is half of it too little? On all inputs of two domains of small floats, and on
 //! inputs made so that roundings add up, at the precision that ships.
 
-use optimized::bound::NEAREST;
+use optimized::bound::{NEAREST, Rule};
 use optimized::host::Scalar;
 use optimized::machine::{LANES, Machine};
 use rayon::prelude::*;
@@ -85,7 +85,7 @@ fn adversity<M: Machine + Sync + Send>(trial: Trial<M>, small: Small) -> Said {
         said
     });
     let said = said.reduce(Said::default, |x, y| x + y);
-    eprintln!("CGT_SEED={seed}, {small:?}, {} of the bound : {said:?}", trial.factor);
+    eprintln!("CGT_SEED={seed}, {small:?}, {} of the bound: {said:?}", trial.factor);
     said
 }
 

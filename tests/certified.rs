@@ -2,7 +2,7 @@
 //! reference, every stage reached; each stage alone against what it must not say.
 
 use contract::{DEFAULT_LIGHT, Scene};
-use optimized::bound::{Bound, NEAREST};
+use optimized::bound::{Bound, NEAREST, Rule};
 use optimized::camera::Block;
 use optimized::double::{self, Answer};
 use optimized::host::{Scalar, Work};
@@ -52,7 +52,7 @@ impl Work for Trace<'_> {
         let mut worker = Worker::default();
         let block = Block::new(m, dir.map(|d| m.lanes(d)));
         let answers = m.within(|| seen.trace(m, scene.spheres(), &block, None, &mut worker));
-        (answers.t, answers.id, worker.counts)
+        (m.to_array(answers.t), m.to_array_i(answers.owners.id), worker.counts)
     }
 }
 
@@ -153,18 +153,18 @@ fn certified_is_exact_where_decisions_are_close() {
 /// Outside the range for which the bound is derived f32 decides nothing.
 #[test]
 fn the_bound_knows_its_range() {
-    let far = 2f64.powi(41);
-    for (farthest, radius) in [(far, 1.0), (1.0, 1.0 / far), (f64::INFINITY, 1.0), (1.0, far)] {
-        assert_eq!(Bound::new(NEAREST, farthest, radius), Bound::NONE, "{farthest:?}, {radius:?}");
+    let (far, rule) = (2f32.powi(41), Rule::new(NEAREST));
+    for (farthest, radius) in [(far, 1.0), (1.0, 1.0 / far), (f32::INFINITY, 1.0), (1.0, far)] {
+        assert_eq!(rule.bound(farthest, radius), Bound::NONE, "{farthest:?}, {radius:?}");
     }
-    assert_ne!(Bound::new(NEAREST, 1e6, 1e-6), Bound::NONE);
+    assert_ne!(rule.bound(1e6, 1e-6), Bound::NONE);
 }
 
 /// A plan without certainty on the same rays is wrong on some, or nothing was close.
 #[test]
 fn rounding_alone_is_not_enough() {
     let (seed, mut wrong) = (seed(), 0);
-    let plan = Plan { arithmetic: optimized::Form::Perpendicular.into(), ..Plan::fast() };
+    let plan = Plan::safe();
     for i in 0..2000 {
         let case = case(Kind::NearEqualRoots, &mut generator(seed, i));
         let scene = Scene::new(case.spheres.clone(), [0; 3], DEFAULT_LIGHT).expect("valid by construction");

@@ -4,6 +4,7 @@
 use contract::{Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
 use optimized::Form;
 use optimized::event::Events;
+use optimized::grid::Memory;
 use optimized::host::Scalar;
 use optimized::margin::in_range;
 use optimized::plan::{Arithmetic, Cells, Margins, OnEvent, Plan, Resolution, Voxelizer};
@@ -27,7 +28,8 @@ fn pins(size: f32, offset: f32) -> Vec<Sphere> {
 
 fn seen(plan: Plan, spheres: &[Sphere], camera: &Camera) -> (Scene, Seen) {
     let scene = Scene::new(spheres.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid by construction");
-    let seen = Seen::new(Scalar, plan, &scene, camera, &mut Events::default()).expect("falls back");
+    let seen = Seen::new(Scalar, plan, &scene, camera, &mut Memory::default(), &mut Events::default())
+        .expect("falls back");
     (scene, seen)
 }
 

@@ -157,7 +157,7 @@ pub fn short_ends(
         let q = dot(f, f) - rr;
         let discriminant = b * b - a * q;
         let t = q / (discriminant.sqrt() - b);
-        let hit = (discriminant > KAPPA * rr * a) & (b < 0.0);
+        let hit = (discriminant > KAPPA * rr * a) & (b < 0.0) & (q > 0.0);
         lo[lane] = if hit { (t - t * e) as f32 } else { 0.0 };
         hi[lane] = if hit { (t + t * e) as f32 } else { 1.0 };
     }

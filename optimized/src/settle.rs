@@ -138,7 +138,8 @@ impl Question<'_> {
         let [lo, hi] =
             double::short_ends(self.eye, &self.dir, &center, &m.to_array(radius), &m.to_array(owners.error));
         let [lo, hi] = [m.lanes(lo), m.lanes(hi)];
-        let unsettled = m.to_bits(m.lt(lo, hi)) & hits;
+        let settled = m.and(m.le(lo, hi), m.le(hi, lo));
+        let unsettled = hits & !m.to_bits(settled);
         let t = m.select(m.lt_i(owners.id, m.splat_i(NONE)), lo, m.splat(f32::INFINITY));
         let mut answers = Answers { t, owners };
         if unsettled | marked != 0 {

@@ -10,7 +10,7 @@ use crate::frame::Known;
 use crate::frustum::{BEYOND, Frustum, Heading, Slices};
 use crate::grid::Grid;
 use crate::machine::{LANES, Machine, Site, three};
-use crate::plan::Plan;
+use crate::plan::{Culling, Plan};
 use crate::seen::Counts;
 use crate::settle::{ALL, Owner, Question};
 use crate::silhouette::{Outline, overlap};
@@ -225,6 +225,7 @@ impl<M: Machine> Work<M> {
             self.known(look, heading, tile, pure, known, stripe);
             return;
         }
+        let range = look.seen_from(range);
         self.take(look, heading, range, &look.grid.large);
         let (mut slice, mut from) = (0, 0);
         loop {
@@ -575,6 +576,15 @@ impl<M: Machine> Look<'_, M> {
         out
     }
 
+    /// The range of slopes that outlines are held against: any without culling.
+    #[inline(always)]
+    fn seen_from(&self, range: [[M::F; 2]; 2]) -> [[M::F; 2]; 2] {
+        match self.plan.culling {
+            Culling::None => [[self.m.splat(f32::NEG_INFINITY), self.m.splat(f32::INFINITY)]; 2],
+            Culling::Planes => range,
+        }
+    }
+
     /// The ranges of slopes of all squares of a side in a tile.
     #[inline(always)]
     fn ranges(&self, heading: Heading, tile: Rect, side: u32, ranges: &mut Ranges) {
@@ -609,7 +619,7 @@ impl<M: Machine> Look<'_, M> {
                     heading.along_lanes(m, through[2]),
                     heading.along_lanes(m, through[3]),
                 ];
-                let [[lo_y, hi_y], [lo_z, hi_z]] = self.range(corners);
+                let [[lo_y, hi_y], [lo_z, hi_z]] = self.seen_from(self.range(corners));
                 let at = (row * columns + column) as usize;
                 let [[out_lo_y, out_hi_y], [out_lo_z, out_hi_z]] = &mut ranges.0;
                 out_lo_y[at..at + LANES].copy_from_slice(&m.to_array(lo_y));

@@ -72,6 +72,10 @@ impl Machine for Avx512 {
         array
     }
     #[inline(always)]
+    fn to_bits(self, x: Self::B) -> u32 {
+        x.into()
+    }
+    #[inline(always)]
     fn splat(self, x: f32) -> Self::F {
         at!(_mm512_set1_ps(x))
     }
@@ -218,6 +222,10 @@ impl Machine for Avx2 {
         at!(_mm256_storeu_si256(array.as_mut_ptr().cast(), x[0]));
         at!(_mm256_storeu_si256(array.as_mut_ptr().add(8).cast(), x[1]));
         array
+    }
+    #[inline(always)]
+    fn to_bits(self, x: Self::B) -> u32 {
+        at!((_mm256_movemask_ps(x[0]) | _mm256_movemask_ps(x[1]) << 8).cast_unsigned())
     }
     #[inline(always)]
     fn splat(self, x: f32) -> Self::F {

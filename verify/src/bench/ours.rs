@@ -6,18 +6,22 @@
 use super::contestant::{Contestant, Frame, Kind, Layers, Oath};
 use crate::subject::{Grid, NamedPlan, Subject, SubjectError};
 use contract::{Camera, Image, Scene};
+use optimized::plan::Chosen;
 use optimized::{Known, Level, Plan, Session, Tracer};
 
 /// The plan that is timed on a scene: the one place where it is chosen.
 #[must_use]
-pub fn chosen(plan: NamedPlan, _: &Scene) -> Plan {
-    plan.plan()
+pub fn chosen(plan: NamedPlan, scene: &Scene) -> Chosen {
+    match plan {
+        NamedPlan::Fast => Plan::for_scene(scene),
+        NamedPlan::Safe | NamedPlan::Paper => Chosen { plan: plan.plan(), reasons: Vec::new() },
+    }
 }
 
 /// The tracer, or with `known` its limit.
 pub struct Ours {
     name: String,
-    plan: Plan,
+    plan: Chosen,
     oath: Oath,
     session: Session,
     known: Option<Known>,
@@ -31,7 +35,7 @@ impl Ours {
     pub fn new(plan: NamedPlan, scene: &Scene, level: Level, threads: usize) -> Result<Self, SubjectError> {
         let oath = Grid::new(plan, level, false, None).promise().into();
         let (name, plan) = (plan.name().to_owned(), chosen(plan, scene));
-        let session = Tracer::new(plan, level).workers(threads).session()?;
+        let session = Tracer::new(plan.plan, level).workers(threads).session()?;
         Ok(Self { name, plan, oath, session, known: None })
     }
 
@@ -58,7 +62,11 @@ impl Contestant for Ours {
 
     fn description(&self) -> String {
         match self.known {
-            None => format!("ids, t and colours, built from nothing in every frame: {}", self.plan),
+            None => {
+                let Chosen { plan, reasons } = &self.plan;
+                let reasons: String = reasons.iter().map(|reason| format!("; {reason}")).collect();
+                format!("ids, t and colours, built from nothing in every frame: {plan}{reasons}")
+            }
             Some(_) => {
                 "the same kernel, told which spheres own a pixel of each block: no grid, no culling".into()
             }

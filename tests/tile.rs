@@ -1,0 +1,261 @@
+//! Tiles: are no hits lost between a sphere's outline and the rays, is the short way to t within its bound, and is every picture the
+//! exact one, whatever the tile, the grid and the frame before?
+
+use contract::{Camera, DEFAULT_LIGHT, Image, Scene, Size, Sphere};
+use optimized::double::{short_ends, short_error};
+use optimized::host::{Scalar, Work};
+use optimized::machine::{LANES, Machine};
+use optimized::plan::{Arithmetic, Cells, Culling, Margins, Packet, Plan, Reason, Resolution, Voxelizer};
+use optimized::silhouette::Outline;
+use optimized::{Form, Known, Level, RenderError, Tracer, cull};
+use rand::{Rng, RngExt};
+use rayon::prelude::*;
+use reference::{Arithmetic as Naive, Ray};
+use verify::matrix::Matrix;
+use verify::seed::{count, generator, seed};
+
+fn exact(scene: &Scene, camera: &Camera) -> Image {
+    reference::Tracer::new(Naive::Exact).threads(1).render(scene, camera).expect("small").image
+}
+
+type Pixel = (u32, u32, [u8; 4]);
+
+fn pixels(image: &Image) -> Vec<Pixel> {
+    let all = image.ids.iter().zip(&image.t).zip(&image.rgba);
+    all.map(|((id, t), rgba)| (*id, t.to_bits(), *rgba)).collect()
+}
+
+fn assert_equal(truth: &Image, given: &Image, what: &dyn Fn() -> String) {
+    assert_eq!(truth.size, given.size, "{}", what());
+    for (i, (truth, given)) in pixels(truth).into_iter().zip(pixels(given)).enumerate() {
+        assert_eq!(truth, given, "exact, tile; pixel {i}; {}", what());
+    }
+}
+
+/// A direction, and a sphere that its ray from the eye comes near, often by its very rim.
+fn near_miss(rng: &mut impl Rng) -> (Ray, Sphere) {
+    let unit = |rng: &mut _| -> [f64; 3] { std::array::from_fn(|_| RngExt::random_range(rng, -1.0f64..1.0)) };
+    let (d, e) = (unit(rng), unit(rng));
+    let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+    let across: [f64; 3] = std::array::from_fn(|i| e[i] - d[i] * dot(e, d) / dot(d, d));
+    let length = dot(across, across).sqrt().max(1e-9);
+    let eye: [f32; 3] = std::array::from_fn(|_| rng.random_range(-20.0f32..20.0));
+    let radius = 2f64.powf(rng.random_range(-12.0..4.0));
+    // How far off its middle, in radii: anything, or the rim to within a few roundings.
+    let off = if rng.random() {
+        rng.random_range(0.0..1.2)
+    } else {
+        1.0 - 2f64.powf(rng.random_range(-24.0..-6.0))
+    };
+    let far = radius * 2f64.powf(rng.random_range(0.05f64..17.0)) / dot(d, d).sqrt();
+    #[allow(clippy::cast_possible_truncation, reason = "any f32 will do")]
+    let center =
+        std::array::from_fn(|i| (f64::from(eye[i]) + far * d[i] + off * radius * across[i] / length) as f32);
+    #[allow(clippy::cast_possible_truncation, reason = "any f32 will do")]
+    let (dir, radius) = (d.map(|x| x as f32), radius as f32);
+    (Ray { eye, dir }, Sphere { center, radius, color: [9; 3] })
+}
+
+fn truth(ray: &Ray, sphere: Sphere) -> Option<f32> {
+    let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("valid");
+    reference::Tracer::new(Naive::Exact).trace(ray, &scene).map(|hit| hit.t)
+}
+
+/// What the kernels say of a ray and a sphere that it hits at t, or what is wrong about it. `slack`, if not 1, spoils them.
+fn held(ray: &Ray, sphere: &Sphere, t: f32, slack: f32) -> Result<bool, String> {
+    let m = Scalar;
+    let axis = (0..3).max_by(|&i, &j| ray.dir[i].abs().total_cmp(&ray.dir[j].abs())).expect("three");
+    let order = [axis, (axis + 1) % 3, (axis + 2) % 3];
+    let sense = ray.dir[axis].signum();
+    let along = |v: [f32; 3]| [sense * v[order[0]], v[order[1]], v[order[2]]];
+    let c = along([0, 1, 2].map(|i| sphere.center[i] - ray.eye[i]));
+    let magnitude = c.map(|x| [x.abs(); LANES]);
+    let radius = cull::radii(m, magnitude, [slack * sphere.radius; LANES]);
+    let outline = Outline::new(m, c.map(|x| [x; LANES]), radius);
+    let d = along(ray.dir).map(f64::from);
+    for i in 0..2 {
+        // Products of two f32 are exact in f64.
+        let (lo, hi) = (f64::from(outline.lo[i][0]) * d[0], f64::from(outline.hi[i][0]) * d[0]);
+        if lo > d[i + 1] || d[i + 1] > hi {
+            return Err(format!("the outline {lo:e} to {hi:e} does not hold the ray's {:e}", d[i + 1]));
+        }
+    }
+    let reached = f64::from(t.next_up()) * d[0];
+    if f64::from(outline.near[0]) > reached {
+        return Err(format!("nearer than near: {:e}, {reached:e}", outline.near[0]));
+    }
+    let error = short_error(m, magnitude, [sphere.radius; LANES]);
+    let error = error.map(|error| if slack == 1.0 { error } else { 0.0 * error });
+    let lanes = |v: [f32; 3]| v.map(|x| [x; LANES]);
+    let ends = short_ends(ray.eye, &lanes(ray.dir), &lanes(sphere.center), &[sphere.radius; LANES], &error);
+    let [lo, hi] = [ends[0][0], ends[1][0]];
+    if lo.to_bits() == hi.to_bits() && lo.to_bits() != t.to_bits() {
+        return Err(format!("t is {t:e}, the short way gives {lo:e}"));
+    }
+    Ok(lo.to_bits() == hi.to_bits())
+}
+
+#[test]
+fn outlines_hold_what_is_hit_and_the_short_way_is_within_its_bound() {
+    let (seed, cases) = (seed(), count("CGT_TILE_RAYS", 1_000_000));
+    let each = (0..cases).into_par_iter().map(|i| {
+        let (ray, sphere) = near_miss(&mut generator(seed, i));
+        let Some(t) = truth(&ray, sphere) else { return [0, 0, 0, 0] };
+        let sound = held(&ray, &sphere, t, 1.0);
+        let short =
+            sound.unwrap_or_else(|what| panic!("CGT_SEED={seed}, case {i}: {what}; {ray:?}, {sphere:?}"));
+        // Outlines of nine tenths of the radius, and no bound at all: both must be found out.
+        let spoilt = held(&ray, &sphere, t, 0.9).err().unwrap_or_default();
+        [1, u64::from(short), u64::from(spoilt.contains("outline")), u64::from(spoilt.contains("short"))]
+    });
+    let sum = each.reduce(|| [0; 4], |x, y| [0, 1, 2, 3].map(|i| x[i] + y[i]));
+    let [hits, short, outside, wrong] = sum;
+    eprintln!(
+        "CGT_SEED={seed}: {cases} rays, {hits} hits, {short} decided by the short way; spoilt, {outside} miss the outline, {wrong} are wrong"
+    );
+    assert!(hits > cases / 3 && short > hits / 4, "too little was at stake");
+    assert!(outside > hits / 20, "outlines too small are hardly ever found out");
+    assert!(wrong > 20, "a missing bound is not found out");
+}
+
+/// Tiles of many shapes in many grids.
+fn plans() -> Vec<Plan> {
+    let mut plans = Vec::new();
+    for side in [1, 2, 7, 32] {
+        for resolution in [Resolution::Fixed(1), Resolution::Fixed(9), Resolution::UpTo(240)] {
+            for culling in [Culling::Planes, Culling::None] {
+                plans.push(Plan { packet: Packet::Tile { side }, resolution, culling, ..Plan::fast() });
+            }
+        }
+    }
+    plans
+}
+
+#[test]
+fn every_picture_is_the_exact_one() {
+    let (matrix, plans) = (Matrix::new().expect("all data that is there can be read"), plans());
+    let levels = Level::available();
+    let best = Level::best().expect("a level");
+    let each = matrix.cases.par_iter().enumerate().map(|(i, case)| {
+        let truth = exact(&case.scene, &case.camera);
+        let (plan, level) = (plans[i % plans.len()], levels[i / plans.len() % levels.len()]);
+        let chosen = Plan::for_scene(&case.scene).plan;
+        for (plan, level, workers) in [(Plan::fast(), best, 1), (plan, level, 1 + i % 3), (chosen, level, 2)]
+        {
+            let mut session = Tracer::new(plan, level).workers(workers).session().expect("memory");
+            let given = session.render(&case.scene, &case.camera).expect("nothing to refuse");
+            assert_equal(&truth, &given.image, &|| {
+                format!("{}; {plan}, {level}, {workers} workers", case.name)
+            });
+            let known =
+                session.render_known(&case.scene, &case.camera, &Known::of(&truth)).expect("its size");
+            assert_equal(&truth, &known.image, &|| format!("{}, known; {plan}, {level}", case.name));
+        }
+        3
+    });
+    let pictures: usize = each.sum();
+    eprintln!("{pictures} pictures by {} plans at {} levels", plans.len() + 2, levels.len());
+    assert!(pictures > 1_500, "too little was at stake");
+}
+
+/// Pictures of random spheres of all sizes from random places, many of whose tiles look along several axes.
+#[test]
+fn wide_views_from_within_are_exact() {
+    let (seed, cases) = (seed(), count("CGT_TILE_PICTURES", 300));
+    let split: u64 = (0..cases)
+        .into_par_iter()
+        .map(|i| {
+            let mut rng = generator(seed, i);
+            let mut ball = || Sphere {
+                center: std::array::from_fn(|_| rng.random_range(-4.0f32..4.0)),
+                radius: 2f32.powf(rng.random_range(-7.0..0.5)),
+                color: std::array::from_fn(|_| rng.random()),
+            };
+            let spheres: Vec<Sphere> = (0..1 + i % 700).map(|_| ball()).collect();
+            let mut vector =
+                |size: f32| -> [f32; 3] { std::array::from_fn(|_| rng.random_range(-size..size)) };
+            let (eye, corner, du, dv) = (vector(5.0), vector(1.0), vector(0.03), vector(0.03));
+            let size = Size::new(1 + u32::try_from(i % 67).expect("small"), 45).expect("a size");
+            let Ok(camera) = Camera::new(eye, corner, du, dv, size) else { return 0 };
+            let scene = Scene::new(spheres, [1, 2, 3], DEFAULT_LIGHT).expect("valid");
+            let rendering =
+                Tracer::new(Plan::fast(), Level::best().expect("a level")).render(&scene, &camera);
+            let given = rendering.expect("nothing to refuse").image;
+            assert_equal(&exact(&scene, &camera), &given, &|| format!("CGT_SEED={seed}, case {i}"));
+            1
+        })
+        .sum();
+    assert!(split > cases * 9 / 10, "{split} of {cases} cameras");
+}
+
+/// What a session keeps from frame to frame is memory alone.
+#[test]
+fn a_frame_does_not_depend_on_the_one_before() {
+    let matrix = Matrix::new().expect("all data that is there can be read");
+    let mut session = Tracer::new(Plan::fast(), Level::best().expect("a level")).session().expect("memory");
+    for case in matrix.cases.iter().step_by(7) {
+        let fresh = Tracer::new(Plan::fast(), Level::best().expect("a level"));
+        let fresh = fresh.render(&case.scene, &case.camera).expect("nothing to refuse");
+        let given = session.render(&case.scene, &case.camera).expect("nothing to refuse");
+        assert_equal(&fresh.image, &given.image, &|| case.name.clone());
+        assert_eq!((&fresh.events, fresh.counts), (&given.events, given.counts), "{}", case.name);
+    }
+}
+
+#[test]
+fn what_tiles_need_is_asked_for() {
+    let matrix = Matrix::new().expect("all data that is there can be read");
+    let case = &matrix.cases[0];
+    let fast = Plan::fast();
+    let lacking = [
+        Plan { voxelizer: Voxelizer::BoxRange, ..fast },
+        Plan { cells: Cells::Queue, ..fast },
+        Plan { arithmetic: Arithmetic::Rounded(Form::Perpendicular), ..fast },
+        Plan { margins: Margins::None, ..fast },
+        Plan { packet: Packet::Tile { side: 0 }, ..fast },
+        Plan { packet: Packet::Tile { side: 65 }, ..fast },
+    ];
+    for plan in lacking {
+        let refused = Tracer::new(plan, Level::SCALAR).render(&case.scene, &case.camera);
+        assert_eq!(refused.map(|_| ()), Err(RenderError::Tile { plan }));
+    }
+    let none = Plan { resolution: Resolution::UpTo(241), ..fast };
+    let refused = Tracer::new(none, Level::SCALAR).render(&case.scene, &case.camera);
+    assert_eq!(refused.map(|_| ()), Err(RenderError::Resolution { cells: 241 }));
+}
+
+#[test]
+fn a_plan_is_chosen_for_reasons() {
+    let ball = |i: u16| Sphere { center: [f32::from(i), 0.0, 0.0], radius: 0.4, color: [9; 3] };
+    let scene = |spheres: Vec<Sphere>| Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+    let few = Plan::for_scene(&scene((0..100).map(ball).collect()));
+    assert_eq!((few.plan, few.reasons), (Plan::fast(), vec![Reason::Few { spheres: 100 }]));
+    let many = Plan::for_scene(&scene((0..50_000).map(ball).collect()));
+    assert_eq!(many.plan.packet, Packet::Tile { side: 16 });
+    assert!(many.reasons[0].to_string().contains("50000 spheres"), "{}", many.reasons[0]);
+    let tiny = Plan::for_scene(&scene(vec![Sphere { radius: 1e-20, ..ball(1) }]));
+    assert_eq!((tiny.plan.packet, tiny.reasons), (Packet::Block, vec![Reason::OutOfRange]));
+}
+
+struct Bits([f32; LANES], [f32; LANES]);
+
+impl Work for Bits {
+    type Output = u32;
+
+    fn on<M: Machine + Send + Sync>(self, m: M) -> u32 {
+        m.within(|| m.to_bits(m.lt(m.lanes(self.0), m.lanes(self.1))))
+    }
+}
+
+#[test]
+fn bits_are_lanes_at_every_level() {
+    let mut rng = generator(seed(), 0);
+    for level in Level::available() {
+        for _ in 0..1000 {
+            let [x, y]: [[f32; LANES]; 2] =
+                std::array::from_fn(|_| std::array::from_fn(|_| rng.random_range(-1.0f32..1.0)));
+            let expected = (0..LANES).map(|i| u32::from(x[i] < y[i]) << i).sum::<u32>();
+            assert_eq!(level.run(Bits(x, y)), expected, "{level}");
+        }
+    }
+}
