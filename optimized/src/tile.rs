@@ -257,7 +257,7 @@ impl<M: Machine> Work<M> {
         stripe: &mut Stripe<'_>,
     ) {
         let m = look.m;
-        let everywhere = [m.splat(f32::NEG_INFINITY), m.splat(f32::INFINITY)];
+        let everywhere = [m.splat(f32::MIN), m.splat(f32::MAX)];
         let round = Round { heading, pure, from: 0, all: true, end: 0.0 };
         let [columns, rows] = tile.squares(BLOCK);
         let corner = |i: u32, j: u32| [tile.x[0] + i * BLOCK, tile.y[0] + j * BLOCK];
@@ -576,11 +576,12 @@ impl<M: Machine> Look<'_, M> {
         out
     }
 
-    /// The range of slopes that outlines are held against: any without culling.
+    /// The range of slopes that outlines are held against: without culling all numbers, but not infinity, at which that begins and ends
+    /// which is not to be seen.
     #[inline(always)]
     fn seen_from(&self, range: [[M::F; 2]; 2]) -> [[M::F; 2]; 2] {
         match self.plan.culling {
-            Culling::None => [[self.m.splat(f32::NEG_INFINITY), self.m.splat(f32::INFINITY)]; 2],
+            Culling::None => [[self.m.splat(f32::MIN), self.m.splat(f32::MAX)]; 2],
             Culling::Planes => range,
         }
     }
