@@ -79,7 +79,7 @@ pub struct Memory {
     places: Vec<u32>,
     offsets: Vec<u32>,
     ids: Vec<u32>,
-    spheres: [Vec<f32>; 4],
+    spheres: Vec<[f32; 4]>,
 }
 
 impl Memory {
@@ -94,11 +94,11 @@ impl Memory {
 #[derive(Clone, Debug)]
 enum Storage {
     Queues(Vec<Queue>),
-    /// Besides ids, for tiles centres and radii in the same order, with as many numbers behind them as there are lanes.
+    /// Besides ids, for tiles centres and radii in the same order.
     Lists {
         offsets: Vec<u32>,
         ids: Vec<u32>,
-        spheres: [Vec<f32>; 4],
+        spheres: Vec<[f32; 4]>,
     },
 }
 
@@ -259,7 +259,7 @@ impl Grid {
         let (whole, large_from) = survey(spheres);
         let n = resolution(plan, &whole, TILE_DENSITY * spheres.len() as f64, 0.0)?;
         let axes = [0, 1, 2].map(|i| Axis::new(m, whole[0][i], whole[1][i], n[i]));
-        let Memory { mut places, mut offsets, mut ids, spheres: mut rows } = std::mem::take(memory);
+        let Memory { mut places, mut offsets, mut ids, spheres: mut placed } = std::mem::take(memory);
         m.within(
             #[inline(always)]
             || find_places(m, &axes, spheres, &mut places),
@@ -284,21 +284,17 @@ impl Grid {
         }
         let kept = spheres.len() - large.len();
         ids.resize(kept, 0);
-        for row in &mut rows {
-            row.resize(kept + LANES, 0.0);
-        }
-        let [x, y, z, r] = &mut rows;
+        placed.resize(kept, [0.0; 4]);
         for ((&place, sphere), id) in places.iter().zip(spheres).zip(0..) {
             if place != NOWHERE {
                 let end = &mut offsets[place as usize];
                 *end -= 1;
-                let at = *end as usize;
-                let [cx, cy, cz] = sphere.center;
-                (ids[at], x[at], y[at], z[at], r[at]) = (id, cx, cy, cz, sphere.radius);
+                let [x, y, z] = sphere.center;
+                (ids[*end as usize], placed[*end as usize]) = (id, [x, y, z, sphere.radius]);
             }
         }
         memory.places = places;
-        let storage = Storage::Lists { offsets, ids, spheres: rows };
+        let storage = Storage::Lists { offsets, ids, spheres: placed };
         Ok(Self { axes, widen: WIDER * widen, large, storage })
     }
 
@@ -322,17 +318,13 @@ impl Grid {
         }
     }
 
-    /// The spheres that a range of cells of a grid for tiles lists: ids, and centres and radii, these with as many numbers behind them as
-    /// there are lanes. Of a grid that is not for tiles, none.
+    /// The spheres that a range of cells of a grid for tiles lists: ids, and centres with radii. Of a grid that is not for tiles, none.
     #[inline(always)]
     #[must_use]
-    pub fn row(&self, [first, last]: [usize; 2]) -> (&[u32], [&[f32]; 4]) {
-        let Storage::Lists { offsets, ids, spheres: [x, y, z, r] } = &self.storage else {
-            return (&[], [&[]; 4]);
-        };
-        let (start, end) = (offsets[first] as usize, offsets[last + 1] as usize);
-        let part = start..end + LANES;
-        (&ids[start..end], [&x[part.clone()], &y[part.clone()], &z[part.clone()], &r[part]])
+    pub fn row(&self, [first, last]: [usize; 2]) -> (&[u32], &[[f32; 4]]) {
+        let Storage::Lists { offsets, ids, spheres } = &self.storage else { return (&[], &[]) };
+        let part = offsets[first] as usize..offsets[last + 1] as usize;
+        spheres.get(part.clone()).map_or((&[], &[]), |spheres| (&ids[part], spheres))
     }
 
     /// How far apart in the list neighbours on each axis are.
@@ -430,7 +422,7 @@ fn fill_lists(plan: &Plan, axes: &[Axis; 3], balls: &[Bounds], boxes: &[CellBox]
             *next += 1;
         });
     }
-    Some(Storage::Lists { offsets, ids, spheres: Default::default() })
+    Some(Storage::Lists { offsets, ids, spheres: Vec::new() })
 }
 
 /// The cells of up to sixteen boxes.
