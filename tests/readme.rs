@@ -8,9 +8,13 @@ use tempfile::TempDir;
 use verify::scenes::catalogue::{Data, ENTRIES};
 
 /// Commands that are not run here, and why. Each must occur, and each script of them must be there to be run.
-const NOT_RUN: [(&str, &str); 4] = [
+const NOT_RUN: [(&str, &str); 5] = [
     ("tests/run", "it is what runs this test"),
     ("tests/fetch-data", "it needs a network"),
+    (
+        "tests/instructions",
+        "it needs Valgrind; tests/instructions.rs runs its comparison on counts that are made up",
+    ),
     (
         "tests/with-embree cargo run --release --features embree -- verify 1hvr --judges embree --size 640x360",
         "tests/embree.rs runs it, where there is an Embree",
