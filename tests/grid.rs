@@ -167,7 +167,7 @@ fn events_are_never_silent() {
         Plan { voxelizer: Voxelizer::EightCorners, resolution: Resolution::Fixed(40), ..Plan::safe() };
     let refused = render(Plan { on_event: OnEvent::Refuse, ..corners }).expect_err("1HVR spans cells at 40");
     assert!(matches!(refused, optimized::RenderError::Refused(Event::SpansCells { .. })), "{refused}");
-    for cells in [0, 65, 255] {
+    for cells in [0, 241, 255] {
         let plan = Plan { resolution: Resolution::Fixed(cells), ..Plan::safe() };
         assert_eq!(render(plan).expect_err("no such grid"), optimized::RenderError::Resolution { cells });
     }

@@ -221,9 +221,17 @@ impl Seen {
                 certified.possible.clear();
                 let nearest = self.meet_all(m, bundle, certified, known, &mut worker.counts).nearest;
                 let question = self.question(m, scene, block);
-                let owner = |id: i32| self.owner(m, scene, id);
                 let marked = m.to_bits(nearest.marked(m)) & wanted;
-                question.settle(m, nearest.id, marked, owner, &worker.possible, wanted, &mut worker.counts)
+                question.settle(
+                    m,
+                    nearest.id,
+                    marked,
+                    #[inline(always)]
+                    |id| self.owner(m, scene, id),
+                    &worker.possible,
+                    wanted,
+                    &mut worker.counts,
+                )
             }
         }
     }

@@ -41,9 +41,14 @@ impl<M: Machine> Answers<M> {
     #[inline(always)]
     pub fn new(m: M, t: M::F, id: M::I, spheres: &[Sphere]) -> Self {
         let hits = m.to_bits(m.lt_i(id, m.splat_i(NONE)));
-        let owner =
-            |id: i32| Owner { id, sphere: &spheres[id.unsigned_abs() as usize], error: f32::INFINITY };
-        Self { t, owners: Owners::of(m, id, hits, owner) }
+        let owners = Owners::of(
+            m,
+            id,
+            hits,
+            #[inline(always)]
+            |id| Owner { id, sphere: &spheres[id.unsigned_abs() as usize], error: f32::INFINITY },
+        );
+        Self { t, owners }
     }
 }
 
@@ -143,23 +148,24 @@ impl Question<'_> {
         let t = m.select(m.lt_i(owners.id, m.splat_i(NONE)), lo, m.splat(f32::INFINITY));
         let mut answers = Answers { t, owners };
         if unsettled | marked != 0 {
-            self.finish(m, marked, unsettled, possible, &mut answers, counts);
+            let (mut t, mut id) = (m.to_array(answers.t), m.to_array_i(answers.owners.id));
+            self.finish(marked, unsettled, possible, &mut t, &mut id, counts);
+            answers = Answers::new(m, m.lanes(t), m.lanes_i(id), self.spheres);
         }
         answers
     }
 
     /// Settles what is left, lane by lane.
-    #[inline(never)]
-    fn finish<M: Machine>(
+    #[cold]
+    fn finish(
         &self,
-        m: M,
         marked: u32,
         unsettled: u32,
         possible: &[u32],
-        answers: &mut Answers<M>,
+        t: &mut [f32; LANES],
+        id: &mut [i32; LANES],
         counts: &mut Counts,
     ) {
-        let (mut t, mut id) = (m.to_array(answers.t), m.to_array_i(answers.owners.id));
         for lane in 0..LANES {
             if marked >> lane & 1 != 0 {
                 counts.asked_f64 += 1;
@@ -168,7 +174,6 @@ impl Question<'_> {
                 t[lane] = self.root_of(lane, id[lane].unsigned_abs(), counts);
             }
         }
-        *answers = Answers::new(m, m.lanes(t), m.lanes_i(id), self.spheres);
     }
 
     /// The t of a sphere that is certainly hit.

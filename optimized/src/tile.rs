@@ -528,11 +528,6 @@ impl<M: Machine> Work<M> {
     fn finish(&mut self, look: &Look<'_, M>, tile: Rect, stripe: &mut Stripe<'_>) {
         let m = look.m;
         let (candidates, spheres) = (&self.candidates, look.scene.spheres());
-        let owner = |number: i32| {
-            let number = number.unsigned_abs() as usize;
-            let id = candidates.ids[number];
-            Owner { id: id.cast_signed(), sphere: &spheres[id as usize], error: candidates.errors[number] }
-        };
         for block in &self.finished {
             if block.marked != 0 {
                 candidates.overlapping(m, self.blocks.get(m, block.at), &mut self.possible);
@@ -545,8 +540,16 @@ impl<M: Machine> Work<M> {
             );
             let question = Question { eye: look.camera.eye(), dir: dirs, spheres };
             let (wanted, marked) = (block.wanted, block.marked);
-            let answers =
-                question.settle(m, block.id, marked, owner, &self.possible, wanted, &mut self.counts);
+            let answers = question.settle(
+                m,
+                block.id,
+                marked,
+                #[inline(always)]
+                |number| candidates.owner(number, spheres),
+                &self.possible,
+                wanted,
+                &mut self.counts,
+            );
             look.painter.write(m, dir, &answers, block.corner, wanted, stripe);
         }
         self.finished.clear();
@@ -857,13 +860,21 @@ impl Candidates {
         self.outlines.truncate(0);
     }
 
+    /// A candidate by its number.
+    #[inline(always)]
+    fn owner<'a>(&self, number: i32, spheres: &'a [Sphere]) -> Owner<'a> {
+        let number = number.unsigned_abs() as usize;
+        let id = self.ids[number];
+        Owner { id: id.cast_signed(), sphere: &spheres[id as usize], error: self.errors[number] }
+    }
+
     /// Takes back what pads the outlines.
     fn trim(&mut self) {
         self.outlines.truncate(self.ids.len());
     }
 
     /// The ids of all that overlap a range.
-    #[cold]
+    #[inline(always)]
     fn overlapping<M: Machine>(&self, m: M, range: [[M::F; 2]; 2], ids: &mut Vec<u32>) {
         ids.clear();
         for chunk in (0..self.ids.len()).step_by(LANES) {
