@@ -2,7 +2,13 @@
 //! depend on what else the machine does, at the levels that Valgrind knows: it has no AVX-512.
 //!
 //! `tests/instructions` runs this, and holds the counts against those in `instructions.json` beside this file.
-#![allow(missing_docs, unreachable_pub, unused_qualifications, reason = "what the macros of gungraun make")]
+#![allow(
+    clippy::exit,
+    missing_docs,
+    unreachable_pub,
+    unused_qualifications,
+    reason = "what the macros of gungraun make"
+)]
 
 use contract::{Camera, Scene, Size, Sphere};
 use gungraun::{Callgrind, prelude::*};
