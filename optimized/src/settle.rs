@@ -1,6 +1,6 @@
 //! From what f32 left open to the answer of the contract: id and correctly rounded t of each ray of a packet.
 //!
-//! In: [`Nearest`] of a packet, the rays, and the spheres that any of them may hit. Three stages follow the f32 one, each for what
+//! In: [`Nearest`](crate::certain::Nearest) of a packet, the rays, and the spheres that any of them may hit. Three stages follow the f32 one, each for what
 //! the one before could not decide:
 //!
 //! 1. An unmarked ray has its sphere; t is asked of f64 ([`crate::double`]) for the whole packet at once.

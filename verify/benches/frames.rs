@@ -5,13 +5,13 @@
 //! as naive (3.9 s) with one thread: scalar 61, SSE2 68, SSE4.2 91, AVX2 125, AVX-512 136 (28.7 ms). With two threads, when
 //! other work held one of the cores: 62, 64, 97, 108, 126.
 //!
-//! And what certainty costs: `Plan::fast()` against the same plan in the perpendicular form, one thread, AVX-512, on the same machine,
+//! And what certainty costs: blocks with certified arithmetic against the same in the perpendicular form, one thread, AVX-512, on the same machine,
 //! 24 November 2026, medians of two runs: 1HVR 1.24 and 1.31 times as much, adenylate kinase 1.27 and 1.32, sphereflake 4 1.39 and
 //! 1.26, 2,000 random spheres 1.40 and 1.37; geometric means 1.32 and 1.31.
 
 use contract::{Camera, Image, Scene};
 use criterion::{BenchmarkId, Criterion};
-use optimized::{Form, Level, Plan, Rendering, Tracer};
+use optimized::{Level, Plan, Rendering, Tracer};
 use reference::Arithmetic;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
@@ -97,17 +97,19 @@ fn check(input: &Input, plan: Plan, naive: Arithmetic, levels: &[Level]) {
     }
 }
 
-/// What certainty costs: `Plan::fast()` against the same plan in the perpendicular form, one thread, the best level.
+/// What certainty costs: the safe plan with certified arithmetic against the same in the perpendicular form, one thread, the best level.
+/// (Tiles are certified only; `cgt bench` times these.)
 fn certainty(level: Level) {
-    let rounded = Plan { arithmetic: Form::Perpendicular.into(), ..Plan::fast() };
+    let rounded = Plan::safe();
+    let certain = Plan { arithmetic: optimized::plan::Arithmetic::Certified, ..rounded };
     let mut product = (0, 1.0);
     for input in SCENES.into_iter().filter_map(Input::new) {
-        check(&input, Plan::fast(), Arithmetic::Exact, &[level]);
+        check(&input, certain, Arithmetic::Exact, &[level]);
         let round = |plan: Plan| time(FRAMES, || input.grid(plan, level, 1));
-        let rounds: Vec<_> = (0..ROUNDS).map(|_| (round(rounded), round(Plan::fast()))).collect();
+        let rounds: Vec<_> = (0..ROUNDS).map(|_| (round(rounded), round(certain))).collect();
         let plain = median(rounds.iter().map(|(plain, _)| *plain).collect());
         let certified = median(rounds.iter().map(|(_, certified)| *certified).collect());
-        let counts = input.grid(Plan::fast(), level, 1).counts;
+        let counts = input.grid(certain, level, 1).counts;
         let in_a_million = |n: u64| n as f64 * 1e6 / counts.lanes as f64;
         eprintln!(
             "{}: {level}, perpendicular {:.2} ms, certified {:.2} ms, {:.2} times as much; of a million rays {:.1} to f64, \

@@ -71,8 +71,8 @@ pub(crate) struct Verify {
     /// best, or the one that CGT_LEVEL names]
     #[arg(long, value_name = "LEVEL")]
     pub(crate) level: Option<String>,
-    /// Cells of the grid on each axis, 1 to 64 [default: 16 for the plan `paper`, chosen for the scene for the others]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(1..=64))]
+    /// Cells of the grid on each axis, 1 to 240 [default: 16 for the plan `paper`, chosen for the scene for the others]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(1..=240))]
     pub(crate) grid: Option<u8>,
     /// Have the exact pictures themselves judged by a tracer from outside; without it there is then no verdict
     #[arg(long, value_name = "NAME", value_parser = [EMBREE])]
