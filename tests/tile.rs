@@ -33,13 +33,12 @@ fn assert_equal(truth: &Image, given: &Image, what: &dyn Fn() -> String) {
 }
 
 /// A direction, and a sphere that its ray from the eye comes near, often by its very rim.
-fn near_miss(rng: &mut impl Rng) -> (Ray, Sphere) {
+fn near_miss(eye: [f32; 3], rng: &mut impl Rng) -> (Ray, Sphere) {
     let unit = |rng: &mut _| -> [f64; 3] { std::array::from_fn(|_| RngExt::random_range(rng, -1.0f64..1.0)) };
     let (d, e) = (unit(rng), unit(rng));
     let dot = |u: [f64; 3], v: [f64; 3]| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
     let across: [f64; 3] = std::array::from_fn(|i| e[i] - d[i] * dot(e, d) / dot(d, d));
     let length = dot(across, across).sqrt().max(1e-9);
-    let eye: [f32; 3] = std::array::from_fn(|_| rng.random_range(-20.0f32..20.0));
     let radius = 2f64.powf(rng.random_range(-12.0..4.0));
     // How far off its middle, in radii: anything, or the rim to within a few roundings.
     let off = if rng.random() {
@@ -61,18 +60,21 @@ fn truth(ray: &Ray, sphere: Sphere) -> Option<f32> {
     reference::Tracer::new(Naive::Exact).trace(ray, &scene).map(|hit| hit.t)
 }
 
+/// A point relative to the eye, and the direction, in components along the ray's major axis and the other two.
+fn turned(ray: &Ray, center: [f32; 3]) -> ([f32; 3], [f64; 3]) {
+    let axis = (0..3).max_by(|&i, &j| ray.dir[i].abs().total_cmp(&ray.dir[j].abs())).expect("three");
+    let sense = ray.dir[axis].signum();
+    let along = |v: [f32; 3]| [sense * v[axis], v[(axis + 1) % 3], v[(axis + 2) % 3]];
+    (along([0, 1, 2].map(|i| center[i] - ray.eye[i])), along(ray.dir).map(f64::from))
+}
+
 /// What the kernels say of a ray and a sphere that it hits at t, or what is wrong about it. `slack`, if not 1, spoils them.
 fn held(ray: &Ray, sphere: &Sphere, t: f32, slack: f32) -> Result<bool, String> {
     let m = Scalar;
-    let axis = (0..3).max_by(|&i, &j| ray.dir[i].abs().total_cmp(&ray.dir[j].abs())).expect("three");
-    let order = [axis, (axis + 1) % 3, (axis + 2) % 3];
-    let sense = ray.dir[axis].signum();
-    let along = |v: [f32; 3]| [sense * v[order[0]], v[order[1]], v[order[2]]];
-    let c = along([0, 1, 2].map(|i| sphere.center[i] - ray.eye[i]));
+    let (c, d) = turned(ray, sphere.center);
     let magnitude = c.map(|x| [x.abs(); LANES]);
     let radius = cull::radii(m, magnitude, [slack * sphere.radius; LANES]);
     let outline = Outline::new(m, c.map(|x| [x; LANES]), radius);
-    let d = along(ray.dir).map(f64::from);
     for i in 0..2 {
         // Products of two f32 are exact in f64.
         let (lo, hi) = (f64::from(outline.lo[i][0]) * d[0], f64::from(outline.hi[i][0]) * d[0]);
@@ -99,7 +101,9 @@ fn held(ray: &Ray, sphere: &Sphere, t: f32, slack: f32) -> Result<bool, String> 
 fn outlines_hold_what_is_hit_and_the_short_way_is_within_its_bound() {
     let (seed, cases) = (seed(), count("CGT_TILE_RAYS", 1_000_000));
     let each = (0..cases).into_par_iter().map(|i| {
-        let (ray, sphere) = near_miss(&mut generator(seed, i));
+        let mut rng = generator(seed, i);
+        let eye = std::array::from_fn(|_| rng.random_range(-20.0f32..20.0));
+        let (ray, sphere) = near_miss(eye, &mut rng);
         let Some(t) = truth(&ray, sphere) else { return [0, 0, 0, 0] };
         let sound = held(&ray, &sphere, t, 1.0);
         let short =
@@ -116,6 +120,37 @@ fn outlines_hold_what_is_hit_and_the_short_way_is_within_its_bound() {
     assert!(hits > cases / 3 && short > hits / 4, "too little was at stake");
     assert!(outside > hits / 20, "outlines too small are hardly ever found out");
     assert!(wrong > 20, "a missing bound is not found out");
+}
+
+/// With the eye at the origin centres are exact, and the outline of the bare radius has its own slack alone against its own rounding.
+#[test]
+fn outlines_cover_their_own_rounding_and_need_to() {
+    let (seed, cases) = (seed(), count("CGT_TILE_RAYS", 1_000_000));
+    let each = (0..cases).into_par_iter().map(|i| {
+        let mut rng = generator(seed, i);
+        let (ray, sphere) = near_miss([0.0; 3], &mut rng);
+        if truth(&ray, sphere).is_none() {
+            return [0, 0];
+        }
+        let (c, d) = turned(&ray, sphere.center);
+        let outline = Outline::new(Scalar, c.map(|x| [x; LANES]), [sphere.radius; LANES]);
+        let mut without = 0;
+        for side in 0..2 {
+            let [lo, hi] = [outline.lo[side][0], outline.hi[side][0]].map(f64::from);
+            let (lowest, slope, highest) = (lo * d[0], d[side + 1], hi * d[0]);
+            assert!(
+                lowest <= slope && slope <= highest,
+                "CGT_SEED={seed}, case {i}: the outline {lo:e} to {hi:e} does not hold {:e}; {ray:?}, {sphere:?}",
+                slope / d[0]
+            );
+            let slack = |x: f64| (1.0 + x.abs()) / 65536.0;
+            without += u64::from((lo + slack(lo)) * d[0] > slope || (hi - slack(hi)) * d[0] < slope);
+        }
+        [1, without]
+    });
+    let [hits, without] = each.reduce(|| [0; 2], |x, y| [x[0] + y[0], x[1] + y[1]]);
+    eprintln!("CGT_SEED={seed}: {hits} hits, {without} of them outside without the slack");
+    assert!(hits > cases / 3 && without > 20, "too little was at stake");
 }
 
 /// Tiles of many shapes in many grids.
@@ -222,6 +257,24 @@ fn what_tiles_need_is_asked_for() {
     let none = Plan { resolution: Resolution::UpTo(241), ..fast };
     let refused = Tracer::new(none, Level::SCALAR).render(&case.scene, &case.camera);
     assert_eq!(refused.map(|_| ()), Err(RenderError::Resolution { cells: 241 }));
+}
+
+#[test]
+fn what_is_known_must_be_of_the_frame() {
+    let (size, other) = (Size::new(8, 8).expect("a size"), Size::new(8, 4).expect("a size"));
+    let camera = |size| {
+        let camera = Camera::new([0.0, 0.0, 5.0], [-0.8, 0.8, -2.0], [0.2, 0.0, 0.0], [0.0, -0.2, 0.0], size);
+        camera.expect("a camera")
+    };
+    let ball = |x: f32| Sphere { center: [x, 0.0, 0.0], radius: 1.0, color: [9; 3] };
+    let scene = |spheres| Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+    let (two, one) = (scene(vec![ball(9.0), ball(0.0)]), scene(vec![ball(0.0)]));
+    let mut session = Tracer::new(Plan::fast(), Level::SCALAR).session().expect("memory");
+    let known = Known::of(&session.render(&two, &camera(size)).expect("a picture").image);
+    let refused = session.render_known(&two, &camera(other), &known).map(|_| ());
+    assert_eq!(refused, Err(RenderError::Known { known: size, asked: other }));
+    let refused = session.render_known(&one, &camera(size), &known).map(|_| ());
+    assert_eq!(refused, Err(RenderError::KnownId { id: 1, spheres: 1 }));
 }
 
 #[test]

@@ -92,6 +92,14 @@ pub enum RenderError {
         /// The plan.
         plan: Plan,
     },
+    /// What a clairvoyant frame was given belongs to another scene.
+    #[error("what is known names sphere {id}, the scene has {spheres}")]
+    KnownId {
+        /// The first such id.
+        id: u32,
+        /// Spheres of the scene.
+        spheres: usize,
+    },
     /// What a clairvoyant frame was given belongs to another one.
     #[error("what is known belongs to a picture of {}x{}, that asked for has {}x{}", known.width(), known.height(), asked.width(), asked.height())]
     Known {

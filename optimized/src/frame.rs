@@ -1,5 +1,5 @@
-//! A frame: the grid is built, then stripes of four scanlines go to the workers as these become free, each stripe
-//! in 4x4 blocks from left to right (the paper's SPUs and their blocks of scanlines).
+//! A frame: the grid is built, then stripes of scanlines go to the workers as these become free. A stripe is four scanlines, in 4x4
+//! blocks from left to right (the paper's SPUs and their blocks of scanlines), or as many as its tiles are high.
 
 use crate::camera::{BLOCK, CameraLanes, middles};
 use crate::event::{Events, RenderError};
@@ -9,7 +9,7 @@ use crate::plan::{Packet, Plan, Sharing};
 use crate::seen::{Counts, Seen, Worker};
 use crate::settle::ALL;
 use crate::stripe::{Painter, Rect, Stripe};
-use crate::tile::Tiles;
+use crate::tile::{self, Tiles};
 use contract::{Camera, Image, MISS, Scene, Size};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -72,6 +72,18 @@ impl Known {
         known
     }
 
+    /// Whether a frame can be the one that is known.
+    fn check(&self, scene: &Scene, camera: &Camera) -> Result<(), RenderError> {
+        if self.size != camera.size() {
+            return Err(RenderError::Known { known: self.size, asked: camera.size() });
+        }
+        let spheres = scene.spheres().len();
+        match self.ids.iter().find(|id| **id as usize >= spheres) {
+            Some(&id) => Err(RenderError::KnownId { id, spheres }),
+            None => Ok(()),
+        }
+    }
+
     /// The owners of the block whose first pixel is (x, y).
     #[inline(always)]
     #[must_use]
@@ -118,10 +130,8 @@ pub fn render<M: Machine + Send + Sync>(
     rendering: &mut Rendering,
 ) -> Result<(), RenderError> {
     let Frame { plan, scene, camera, workers, known } = *frame;
-    if let Some(known) = known
-        && known.size != camera.size()
-    {
-        return Err(RenderError::Known { known: known.size, asked: camera.size() });
+    if let Some(known) = known {
+        known.check(scene, camera)?;
     }
     let start = Instant::now();
     rendering.events = Events::default();
@@ -136,9 +146,10 @@ pub fn render<M: Machine + Send + Sync>(
         Packet::Tile { side } => u32::from(side) * BLOCK,
     };
     let width = camera.size().width() as usize;
-    let rows = width * side as usize;
+    let height = stripe_height(side, camera.size().height(), workers);
+    let rows = width * height as usize;
     let layers = image.ids.chunks_mut(rows).zip(image.t.chunks_mut(rows)).zip(image.rgba.chunks_mut(rows));
-    let stripes = (0..).step_by(side as usize).zip(layers);
+    let stripes = (0..).step_by(height as usize).zip(layers);
     let stripes = Mutex::new(stripes.map(|(y, ((ids, t), rgba))| Stripe { y, width, ids, t, rgba }));
     let next = || stripes.lock().expect("no worker panics while it holds the list").next();
     let work = || {
@@ -176,14 +187,26 @@ pub fn render<M: Machine + Send + Sync>(
         work()
     } else {
         std::thread::scope(|scope| {
-            let workers: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-            let counts = workers.into_iter().map(|worker| worker.join().expect("a worker panicked"));
-            counts.fold(Counts::default(), |sum, counts| sum + counts)
+            let others: Vec<_> = (1..workers).map(|_| scope.spawn(work)).collect();
+            let own = work();
+            let counts = others.into_iter().map(|worker| worker.join().expect("a worker panicked"));
+            counts.fold(own, |sum, counts| sum + counts)
         })
     };
     memory.take(seen.grid);
     rendering.times.trace = start.elapsed() - rendering.times.build;
     Ok(())
+}
+
+/// Scanlines of a stripe: as many as a tile has, but for several workers so few that each may take eight stripes, lest one is left
+/// waiting for the other; whole patches of a tile if that can be.
+fn stripe_height(side: u32, rows: u32, workers: usize) -> u32 {
+    const PATCH: u32 = tile::PATCH * BLOCK;
+    if workers <= 1 || side <= PATCH {
+        return side;
+    }
+    let stripes = u32::try_from(8 * workers).unwrap_or(u32::MAX);
+    (rows / stripes).next_multiple_of(PATCH).clamp(PATCH, side)
 }
 
 /// Fills a stripe block by block.

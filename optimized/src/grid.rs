@@ -246,7 +246,8 @@ impl Grid {
     }
 
     /// A grid for tiles: over the centres of spheres, of which there is at least one and whose reach is their radius, in the memory of
-    /// an earlier one. Large spheres are set apart; a tile looks as far around as the largest of the others.
+    /// an earlier one. Large spheres are set apart; a tile looks as far around as the largest of the others. It takes 24 bytes a sphere and
+    /// 4 a cell, of which there is one to 32 spheres unless the plan says otherwise: 24.1 bytes beside the scene's own 20.
     ///
     /// # Errors
     /// [`RenderError::Resolution`] for one that is out of range.

@@ -133,6 +133,9 @@ impl Question<'_> {
         counts.lanes += u64::from(wanted.count_ones());
         let hit = m.lt_i(numbers, m.splat_i(NONE));
         let hits = m.to_bits(hit) & wanted & !marked;
+        if hits | marked == 0 {
+            return Answers { t: m.splat(f32::INFINITY), owners: Owners::none(m) };
+        }
         let owners = Owners::of(m, numbers, hits, owner);
         let Surface { center, radius, .. } = owners.surface;
         let center = three(

@@ -1,7 +1,7 @@
 //! The outline of a sphere as a packet's rays see it: between which slopes it lies, and how near it comes.
 //!
 //! In: centres relative to the eye along (A, Y, Z), A the major axis, and radii that have been enlarged for rounding
-//! ([`crate::cull::radius`]), sixteen at a time. Out: [`Outline`]. A ray whose slopes lie outside it misses the sphere; so does a
+//! ([`crate::cull::radii`]), sixteen at a time. Out: [`Outline`]. A ray whose slopes lie outside it misses the sphere; so does a
 //! packet whose range of slopes does not overlap it. That is the test of the frustum's four planes ([`crate::cull`]), which
 //! all go through the eye along one of the minor axes, with its square root taken once for a sphere in place of once for a packet:
 //! what is left of it for a packet are four comparisons.
@@ -18,7 +18,7 @@
 //! if A > R. We take them if A >= 2R; a sphere that is nearer has an outline without limits, and one that lies behind, A + R < 0, has
 //! none at all.
 //!
-//! *Rounding.* That the centre is rounded is covered by R, which has 16u (|c|₁ + R) added (u = 2⁻²⁴; the centre is off
+//! *Rounding.* That the centre is rounded is covered by R, which has 16u (|c|₁ + R) added at least (u = 2⁻²⁴; the centre is off
 //! by u |c|₁ at most). From there on A, Y, R are exact numbers. A² − R² = (A − R)(A + R) is right to 3u of itself and at least
 //! 3/4 A²; adding Y², to 5u, the root to 4u. So each of the two terms is right to 6u of itself and their sum to 7u of the sum of their
 //! magnitudes, which after division is at most 4/3 (w + (1 + w)/2), w = |Y|/A: the slope is off by at most 16u (2w + 1). The slope
@@ -52,7 +52,6 @@ impl<M: Machine> Outline<M> {
         let square = m.mul(near, m.add(a, radius));
         let ahead = m.le(m.add(radius, radius), a);
         let behind = m.lt(m.add(a, radius), zero);
-
         let [y, z] = [tangents(m, [a, y], radius, square), tangents(m, [a, z], radius, square)];
         let (far, minus_far) = (m.splat(f32::INFINITY), m.splat(f32::NEG_INFINITY));
         let lo = [m.select(ahead, y[0], minus_far), m.select(ahead, z[0], minus_far)];

@@ -52,8 +52,9 @@
 //! | tiles of 64x32, 32x16 blocks, then | 236, 243 |
 //!
 //! A plain memory fill of the picture takes 0.15 ms, in pieces of 128x128 pixels 0.25 ms, of a frame's 3 to 5 ms. Of the rest, on 1HVR,
-//! blocks meeting candidates take half, f64 and colours a third. The clairvoyant ([`Known`]) is 1.1 to 1.4 times as fast, so that little is left
-//! to be won on the way to the spheres. Not tried: fused operations in the f32 filter.
+//! blocks meeting candidates take half, f64 and colours a third. The clairvoyant ([`Known`]) is 1.2 to 1.6 times as fast, so that little is left
+//! to be won on the way to the spheres. Not tried: fused operations in the f32 filter, a Newton step in place of the f64
+//! root.
 
 use crate::bound::{self, Rule};
 use crate::camera::{BLOCK, CameraLanes, spread};
@@ -76,7 +77,7 @@ pub const MAX_SIDE: u8 = 64;
 /// Candidates after which a tile's blocks are looked at before its walk goes on.
 const ROUND: usize = 256;
 /// Blocks on a side of a patch.
-const PATCH: u32 = 8;
+pub(crate) const PATCH: u32 = 8;
 
 /// Of a sphere that is no candidate, and of one that lies behind the rays.
 const NOT_TAKEN: u32 = u32::MAX;

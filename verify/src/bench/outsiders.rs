@@ -42,7 +42,7 @@ impl Outsider {
 }
 
 /// Those that were asked for and are there.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Field {
     #[cfg_attr(
         not(any(feature = "embree", feature = "peers")),
@@ -62,7 +62,15 @@ impl Field {
     /// None of them yet.
     #[must_use]
     pub fn new(threads: usize) -> Self {
-        Self { threads, ..Self::default() }
+        Self {
+            threads,
+            #[cfg(feature = "embree")]
+            embree: None,
+            #[cfg(feature = "embree")]
+            modes: Vec::new(),
+            #[cfg(feature = "peers")]
+            peers: Vec::new(),
+        }
     }
 
     /// Adds one. Embree is held to the instruction set of a level.
