@@ -77,6 +77,14 @@ pub enum RenderError {
     /// No memory for it.
     #[error(transparent)]
     Size(#[from] SizeError),
+    /// The system gives no thread to a worker.
+    #[error("no threads for {workers} workers: {cause}")]
+    Workers {
+        /// As asked for.
+        workers: usize,
+        /// What it says.
+        cause: String,
+    },
     /// The plan refuses what the scene did.
     #[error("refused by the plan: {0}")]
     Refused(Event),

@@ -2,6 +2,7 @@
 //! blocks from left to right (the paper's SPUs and their blocks of scanlines), or as many as its tiles are high.
 
 use crate::camera::{BLOCK, CameraLanes, middles};
+use crate::crew::Crew;
 use crate::event::{Events, RenderError};
 use crate::grid::Memory;
 use crate::machine::Machine;
@@ -110,8 +111,8 @@ pub struct Frame<'a> {
     pub scene: &'a Scene,
     /// The camera.
     pub camera: &'a Camera,
-    /// How many workers; the picture does not depend on it.
-    pub workers: usize,
+    /// The workers; the picture does not depend on their number.
+    pub crew: &'a Crew,
     /// What is known of the picture beforehand, if anything.
     pub known: Option<&'a Known>,
 }
@@ -129,7 +130,7 @@ pub fn render<M: Machine + Send + Sync>(
     memory: &mut Memory,
     rendering: &mut Rendering,
 ) -> Result<(), RenderError> {
-    let Frame { plan, scene, camera, workers, known } = *frame;
+    let Frame { plan, scene, camera, crew, known } = *frame;
     if let Some(known) = known {
         known.check(scene, camera)?;
     }
@@ -146,7 +147,7 @@ pub fn render<M: Machine + Send + Sync>(
         Packet::Tile { side } => u32::from(side) * BLOCK,
     };
     let width = camera.size().width() as usize;
-    let height = stripe_height(side, camera.size().height(), workers);
+    let height = stripe_height(side, camera.size().height(), crew.size());
     let rows = width * height as usize;
     let layers = image.ids.chunks_mut(rows).zip(image.t.chunks_mut(rows)).zip(image.rgba.chunks_mut(rows));
     let stripes = (0..).step_by(height as usize).zip(layers);
@@ -183,16 +184,7 @@ pub fn render<M: Machine + Send + Sync>(
         }
         worker.counts
     };
-    rendering.counts = if workers <= 1 {
-        work()
-    } else {
-        std::thread::scope(|scope| {
-            let others: Vec<_> = (1..workers).map(|_| scope.spawn(work)).collect();
-            let own = work();
-            let counts = others.into_iter().map(|worker| worker.join().expect("a worker panicked"));
-            counts.fold(own, |sum, counts| sum + counts)
-        })
-    };
+    rendering.counts = crew.each(work).into_iter().fold(Counts::default(), |sum, counts| sum + counts);
     memory.take(seen.grid);
     rendering.times.trace = start.elapsed() - rendering.times.build;
     Ok(())

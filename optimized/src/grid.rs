@@ -79,14 +79,13 @@ pub struct Memory {
     places: Vec<u32>,
     offsets: Vec<u32>,
     ids: Vec<u32>,
-    spheres: Vec<[f32; 4]>,
 }
 
 impl Memory {
     /// Takes back what a grid was made of.
     pub fn take(&mut self, grid: Option<Grid>) {
-        if let Some(Grid { storage: Storage::Lists { offsets, ids, spheres }, .. }) = grid {
-            (self.offsets, self.ids, self.spheres) = (offsets, ids, spheres);
+        if let Some(Grid { storage: Storage::Lists { offsets, ids }, .. }) = grid {
+            (self.offsets, self.ids) = (offsets, ids);
         }
     }
 }
@@ -94,11 +93,9 @@ impl Memory {
 #[derive(Clone, Debug)]
 enum Storage {
     Queues(Vec<Queue>),
-    /// Besides ids, for tiles centres and radii in the same order.
     Lists {
         offsets: Vec<u32>,
         ids: Vec<u32>,
-        spheres: Vec<[f32; 4]>,
     },
 }
 
@@ -246,8 +243,8 @@ impl Grid {
     }
 
     /// A grid for tiles: over the centres of spheres, of which there is at least one and whose reach is their radius, in the memory of
-    /// an earlier one. Large spheres are set apart; a tile looks as far around as the largest of the others. It takes 24 bytes a sphere and
-    /// 4 a cell, of which there is one to 32 spheres unless the plan says otherwise: 24.1 bytes beside the scene's own 20.
+    /// an earlier one. Large spheres are set apart; a tile looks as far around as the largest of the others. It takes 8 bytes a sphere and
+    /// 4 a cell, of which there is one to 32 spheres unless the plan says otherwise: 8.1 bytes beside the scene's own 20.
     ///
     /// # Errors
     /// [`RenderError::Resolution`] for one that is out of range.
@@ -257,45 +254,35 @@ impl Grid {
         spheres: &[Sphere],
         memory: &mut Memory,
     ) -> Result<Self, RenderError> {
-        let (whole, large_from) = survey(spheres);
+        let (whole, large_from) = m.within(
+            #[inline(always)]
+            || survey(m, spheres),
+        );
         let n = resolution(plan, &whole, TILE_DENSITY * spheres.len() as f64, 0.0)?;
         let axes = [0, 1, 2].map(|i| Axis::new(m, whole[0][i], whole[1][i], n[i]));
-        let Memory { mut places, mut offsets, mut ids, spheres: mut placed } = std::mem::take(memory);
-        m.within(
-            #[inline(always)]
-            || find_places(m, &axes, spheres, &mut places),
-        );
-        let (mut large, mut widen) = (Vec::new(), 0.0f32);
+        let Memory { mut places, mut offsets, mut ids } = std::mem::take(memory);
         offsets.clear();
         offsets.resize(cells(&axes) + 1, 0);
-        for ((place, sphere), id) in places.iter_mut().zip(spheres).zip(0..) {
-            if sphere.radius >= large_from {
-                large.push(id);
-                *place = NOWHERE;
-            } else {
-                widen = widen.max(sphere.radius);
-                offsets[*place as usize] += 1;
-            }
-        }
+        let (large, widen) = m.within(
+            #[inline(always)]
+            || find_places(m, &axes, spheres, large_from, &mut places, &mut offsets),
+        );
         // Where each cell ends, from where it is filled downwards.
         let mut sum = 0;
         for offset in &mut offsets {
             sum += *offset;
             *offset = sum;
         }
-        let kept = spheres.len() - large.len();
-        ids.resize(kept, 0);
-        placed.resize(kept, [0.0; 4]);
-        for ((&place, sphere), id) in places.iter().zip(spheres).zip(0..) {
+        ids.resize(spheres.len() - large.len(), 0);
+        for (&place, id) in places.iter().zip(0..) {
             if place != NOWHERE {
                 let end = &mut offsets[place as usize];
                 *end -= 1;
-                let [x, y, z] = sphere.center;
-                (ids[*end as usize], placed[*end as usize]) = (id, [x, y, z, sphere.radius]);
+                ids[*end as usize] = id;
             }
         }
         memory.places = places;
-        let storage = Storage::Lists { offsets, ids, spheres: placed };
+        let storage = Storage::Lists { offsets, ids };
         Ok(Self { axes, widen: WIDER * widen, large, storage })
     }
 
@@ -309,7 +296,7 @@ impl Grid {
                 }
             }
             Storage::Queues(_) => {}
-            Storage::Lists { offsets, ids, .. } => {
+            Storage::Lists { offsets, ids } => {
                 let start = offsets[index] as usize;
                 let end = if live { offsets[index + 1] as usize } else { start };
                 for &id in &ids[start..end] {
@@ -319,13 +306,12 @@ impl Grid {
         }
     }
 
-    /// The spheres that a range of cells of a grid for tiles lists: ids, and centres with radii. Of a grid that is not for tiles, none.
+    /// What a range of cells of a grid of lists holds; of queues, nothing.
     #[inline(always)]
     #[must_use]
-    pub fn row(&self, [first, last]: [usize; 2]) -> (&[u32], &[[f32; 4]]) {
-        let Storage::Lists { offsets, ids, spheres } = &self.storage else { return (&[], &[]) };
-        let part = offsets[first] as usize..offsets[last + 1] as usize;
-        spheres.get(part.clone()).map_or((&[], &[]), |spheres| (&ids[part], spheres))
+    pub fn row(&self, [first, last]: [usize; 2]) -> &[u32] {
+        let Storage::Lists { offsets, ids } = &self.storage else { return &[] };
+        &ids[offsets[first] as usize..offsets[last + 1] as usize]
     }
 
     /// How far apart in the list neighbours on each axis are.
@@ -423,7 +409,7 @@ fn fill_lists(plan: &Plan, axes: &[Axis; 3], balls: &[Bounds], boxes: &[CellBox]
             *next += 1;
         });
     }
-    Some(Storage::Lists { offsets, ids, spheres: Vec::new() })
+    Some(Storage::Lists { offsets, ids })
 }
 
 /// The cells of up to sixteen boxes.
@@ -452,42 +438,78 @@ fn whole(boxes: &[Bounds]) -> [[f32; 3]; 2] {
     })
 }
 
-/// The cell of each sphere's centre.
+/// The cell of each sphere's centre, and how many each cell has; apart the large ones, and the largest radius of the others.
 #[inline(always)]
-fn find_places<M: Machine>(m: M, axes: &[Axis; 3], spheres: &[Sphere], places: &mut Vec<u32>) {
+fn find_places<M: Machine>(
+    m: M,
+    axes: &[Axis; 3],
+    spheres: &[Sphere],
+    large_from: f32,
+    places: &mut Vec<u32>,
+    counts: &mut [u32],
+) -> (Vec<u32>, f32) {
     let strides = strides(axes).map(|stride| u32::try_from(stride).expect("MAX_CELLS squared"));
+    let (mut large, mut largest, limit) = (Vec::new(), m.splat(0.0), m.splat(large_from));
     places.clear();
-    for chunk in spheres.chunks(LANES) {
-        let [mut x, mut y, mut z] = [[0.0; LANES]; 3];
-        for (lane, sphere) in chunk.iter().enumerate() {
-            [x[lane], y[lane], z[lane]] = sphere.center;
+    for (chunk, first) in spheres.chunks(LANES).zip((0..).step_by(LANES)) {
+        let [mut x, mut y, mut z, mut r] = [[0.0; LANES]; 4];
+        for (lane, Sphere { center, radius, .. }) in chunk.iter().enumerate() {
+            [x[lane], y[lane], z[lane]] = *center;
+            r[lane] = *radius;
         }
         let [i, j, k] = [
             m.to_array_i(axes[0].cell(m, m.lanes(x))),
             m.to_array_i(axes[1].cell(m, m.lanes(y))),
             m.to_array_i(axes[2].cell(m, m.lanes(z))),
         ];
+        let radius = m.lanes(r);
+        let small = m.lt(radius, limit);
+        largest = m.select(small, m.max(largest, radius), largest);
         let mut cells = [0; LANES];
         for lane in 0..LANES {
             let cell = [i[lane].cast_unsigned(), j[lane].cast_unsigned(), k[lane].cast_unsigned()];
             cells[lane] = cell[0] * strides[0] + cell[1] * strides[1] + cell[2] * strides[2];
         }
+        let mut apart = m.to_bits(m.not(small)) & ((1 << chunk.len()) - 1);
+        while apart != 0 {
+            let lane = apart.trailing_zeros();
+            large.push(first + lane);
+            cells[lane as usize] = NOWHERE;
+            apart &= apart - 1;
+        }
+        for &cell in &cells[..chunk.len()] {
+            if cell != NOWHERE {
+                counts[cell as usize] += 1;
+            }
+        }
         places.extend_from_slice(&cells[..chunk.len()]);
     }
+    (large, m.to_array(m.largest(largest))[0])
 }
 
 /// The box around all centres, and the radius from which on a sphere is large: the least power of two that one in 64 and 32 more spheres
 /// reach at most.
-fn survey(spheres: &[Sphere]) -> ([[f32; 3]; 2], f32) {
-    let (mut lo, mut hi) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    let mut of_exponent = [0usize; 256];
-    for sphere in spheres {
-        for (x, (lo, hi)) in sphere.center.into_iter().zip(lo.iter_mut().zip(&mut hi)) {
-            *lo = if x < *lo { x } else { *lo };
-            *hi = if x > *hi { x } else { *hi };
+#[inline(always)]
+fn survey<M: Machine>(m: M, spheres: &[Sphere]) -> ([[f32; 3]; 2], f32) {
+    let (mut lo, mut hi) = ([m.splat(f32::INFINITY); 3], [m.splat(f32::NEG_INFINITY); 3]);
+    // Neighbours mostly have the same exponent: four counts for each, so that none waits for the one before.
+    let mut of_exponents = [[0usize; 256]; 4];
+    for chunk in spheres.chunks(LANES) {
+        // Lanes that are left over have the first sphere's centre.
+        let mut centers = [[0.0; LANES], [0.0; LANES], [0.0; LANES]];
+        for lane in 0..LANES {
+            let Sphere { center, .. } = chunk[if lane < chunk.len() { lane } else { 0 }];
+            [centers[0][lane], centers[1][lane], centers[2][lane]] = center;
         }
-        of_exponent[(sphere.radius.to_bits() >> 23) as usize] += 1;
+        for i in 0..3 {
+            let x = m.lanes(centers[i]);
+            (lo[i], hi[i]) = (m.min(x, lo[i]), m.max(x, hi[i]));
+        }
+        for (lane, sphere) in chunk.iter().enumerate() {
+            of_exponents[lane % 4][(sphere.radius.to_bits() >> 23) as usize] += 1;
+        }
     }
+    let of_exponent: [usize; 256] = std::array::from_fn(|i| of_exponents.iter().map(|of| of[i]).sum());
     let (mut large, mut from) = (0, f32::INFINITY);
     for (exponent, count) in (0..256u32).zip(of_exponent).rev() {
         large += count;
@@ -497,7 +519,11 @@ fn survey(spheres: &[Sphere]) -> ([[f32; 3]; 2], f32) {
         from = f32::from_bits(exponent << 23);
     }
     // Where all are alike, none is large.
-    ([lo, hi], if large == spheres.len() { f32::INFINITY } else { from })
+    let mut whole = [[0.0; 3]; 2];
+    for i in 0..3 {
+        (whole[0][i], whole[1][i]) = (m.to_array(m.smallest(lo[i]))[0], m.to_array(m.largest(hi[i]))[0]);
+    }
+    (whole, if large == spheres.len() { f32::INFINITY } else { from })
 }
 
 /// Cells on each axis. Chosen ones are cubes, about as many as wanted; for eight corners they are wider than any

@@ -65,6 +65,7 @@ pub mod seen;
 
 pub mod shade;
 
+pub mod crew;
 pub mod event;
 pub mod frame;
 
@@ -75,6 +76,7 @@ pub use plan::Plan;
 pub use sphere::Form;
 
 use contract::{Camera, Scene};
+use crew::Crew;
 use frame::Frame;
 use grid::Memory;
 use machine::Machine;
@@ -113,16 +115,18 @@ impl Tracer {
     /// A tracer at work on one frame after another.
     ///
     /// # Errors
-    /// [`RenderError::Size`] if there is no memory at all.
+    /// [`RenderError::Size`] if there is no memory at all, [`RenderError::Workers`] if there are no threads.
     pub fn session(&self) -> Result<Session, RenderError> {
-        Ok(Session { tracer: *self, memory: Memory::default(), rendering: Rendering::nothing()? })
+        let (crew, rendering) = (Crew::new(self.workers)?, Rendering::nothing()?);
+        Ok(Session { tracer: *self, crew, memory: Memory::default(), rendering })
     }
 }
 
-/// A tracer at work on one frame after another, each built from nothing; only memory is kept from frame to frame.
+/// A tracer at work on one frame after another, each built from nothing; only memory and workers are kept from frame to frame.
 #[derive(Clone, Debug)]
 pub struct Session {
     tracer: Tracer,
+    crew: Crew,
     memory: Memory,
     rendering: Rendering,
 }
@@ -157,8 +161,8 @@ impl Session {
         camera: &Camera,
         known: Option<&Known>,
     ) -> Result<&Rendering, RenderError> {
-        let Tracer { plan, level, workers } = self.tracer;
-        let frame = Frame { plan, scene, camera, workers, known };
+        let Tracer { plan, level, .. } = self.tracer;
+        let frame = Frame { plan, scene, camera, crew: &self.crew, known };
         level.run(Work { frame, memory: &mut self.memory, rendering: &mut self.rendering })?;
         Ok(&self.rendering)
     }

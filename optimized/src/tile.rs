@@ -385,10 +385,10 @@ impl<M: Machine> Work<M> {
             let row = start + j.unsigned_abs() as usize * stride[1];
             self.counts.cells += (last_k - first_k + 1) as u64;
             if stride[2] == 1 {
-                self.gather(look, heading, range, [row + first_k, row + last_k]);
+                self.take(look, heading, range, look.grid.row([row + first_k, row + last_k]));
             } else {
                 for k in first_k..=last_k {
-                    self.gather(look, heading, range, [row + k * stride[2]; 2]);
+                    self.take(look, heading, range, look.grid.row([row + k * stride[2]; 2]));
                 }
             }
         }
@@ -691,20 +691,6 @@ impl<M: Machine> Look<'_, M> {
 }
 
 impl<M: Machine> Work<M> {
-    /// Takes the spheres of neighbouring cells that the tile may see.
-    #[inline(always)]
-    fn gather(&mut self, look: &Look<'_, M>, heading: Heading, range: [[M::F; 2]; 2], cells: [usize; 2]) {
-        let (ids, spheres) = look.grid.row(cells);
-        self.counts.candidates += ids.len() as u64;
-        for (ids, spheres) in ids.chunks(LANES).zip(spheres.chunks(LANES)) {
-            let [mut x, mut y, mut z, mut r] = [[0.0; LANES]; 4];
-            for (lane, sphere) in spheres.iter().enumerate() {
-                [x[lane], y[lane], z[lane], r[lane]] = *sphere;
-            }
-            self.consider(look, heading, range, ids, &[x, y, z, r]);
-        }
-    }
-
     /// Takes of spheres those that the tile may see.
     #[inline(always)]
     fn take(&mut self, look: &Look<'_, M>, heading: Heading, range: [[M::F; 2]; 2], ids: &[u32]) {

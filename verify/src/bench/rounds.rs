@@ -1,8 +1,9 @@
 //! Times taken in turn: in each round every contestant traces a few frames, so that whatever else the machine does falls on
 //! all of them alike.
 //!
-//! A turn begins with a frame that is not counted, since in an animation the frame before is one's own and not another's;
-//! unless frames take longer than [`LONG`], which no cache outlasts.
+//! A turn begins with frames that are not counted, as long as those that are: in an animation the frames before are one's own and not
+//! another's, and a scheduler may take several to give each thread a core of its own. Frames longer than [`LONG`] go without, since
+//! no cache outlasts them.
 //! Each round begins with another contestant. What is kept is every counted frame's time, in all and for building.
 
 use super::contestant::Contestant;
@@ -25,7 +26,7 @@ pub struct Effort {
 pub const LEAST: usize = 5;
 /// See [`LEAST`].
 pub const MOST: usize = 200;
-/// A turn counts frames until they have taken so long together, at most [`FRAMES`].
+/// Frames of a turn, counted or not, go on until they have taken so long together, at most [`FRAMES`].
 const TURN: Duration = Duration::from_millis(20);
 const FRAMES: usize = 16;
 /// See the module's text; in seconds.
@@ -113,11 +114,19 @@ pub(super) fn turn(
     taken: &mut Taken,
 ) -> Result<(), SubjectError> {
     if !taken.frames.iter().any(|[_, total]| *total > LONG) {
-        one(contestant, scene, camera)?;
+        several(|| one(contestant, scene, camera).map(drop))?;
     }
+    several(|| {
+        taken.frames.push(one(contestant, scene, camera)?);
+        Ok(())
+    })
+}
+
+/// Frames until the time of a turn is over.
+fn several(mut one: impl FnMut() -> Result<(), SubjectError>) -> Result<(), SubjectError> {
     let start = Instant::now();
     for _ in 0..FRAMES {
-        taken.frames.push(one(contestant, scene, camera)?);
+        one()?;
         if start.elapsed() >= TURN {
             break;
         }

@@ -1,0 +1,63 @@
+//! The workers of a tracer: threads that stay from frame to frame. A frame of an animation takes about a millisecond; a thread begun for it
+//! may not have found a core of its own before the frame is done (measured: with a thread a frame two workers took as long as one, where
+//! schedulers pack what sleeps often onto few cores).
+
+use crate::event::RenderError;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::{Arc, Mutex};
+
+/// Workers, of whom the thread that calls is one.
+#[derive(Clone, Debug)]
+pub struct Crew {
+    others: Option<Arc<ThreadPool>>,
+}
+
+impl Crew {
+    /// So many workers; none is as good as one.
+    ///
+    /// # Errors
+    /// [`RenderError::Workers`] if the system gives no thread.
+    pub fn new(workers: usize) -> Result<Self, RenderError> {
+        if workers <= 1 {
+            return Ok(Self { others: None });
+        }
+        let others = ThreadPoolBuilder::new().num_threads(workers - 1).build();
+        let others = others.map_err(|error| RenderError::Workers { workers, cause: error.to_string() })?;
+        Ok(Self { others: Some(Arc::new(others)) })
+    }
+
+    /// Workers, the calling thread included.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        1 + self.others.as_ref().map_or(0, |others| others.current_num_threads())
+    }
+
+    /// What each worker makes of the same work, in no certain order.
+    ///
+    /// # Panics
+    /// If `work` does.
+    pub fn each<R: Send>(&self, work: impl Fn() -> R + Sync) -> Vec<R> {
+        let Some(others) = &self.others else { return vec![work()] };
+        let done = Mutex::new(Vec::with_capacity(self.size()));
+        let one = || {
+            let result = work();
+            done.lock().expect("nothing panics while it holds the list").push(result);
+        };
+        let all = || {
+            others.in_place_scope(|scope| {
+                for _ in 0..others.current_num_threads() {
+                    scope.spawn(|_| one());
+                }
+                one();
+            });
+        };
+        if rayon::current_thread_index().is_some() {
+            // A worker of some other pool would take up that pool's tasks while it waits, frame within frame until its stack is full.
+            // A thread of no pool just waits.
+            std::thread::scope(|scope| scope.spawn(all).join()).unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        } else {
+            all();
+        }
+        done.into_inner().expect("as above")
+    }
+}
