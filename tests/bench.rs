@@ -69,6 +69,9 @@ fn consistent(scene: &Value) {
     let embree = fastest(scene, "embree");
     close("the ratio to Embree", scene["ratio_to_embree"].as_f64(), ratio(embree, subject));
     assert_eq!(scene["embree_best"].is_string(), embree.is_some(), "the best of Embree is named");
+    let picked = fastest(scene, "picked");
+    close("the ratio to picked plans", scene["ratio_to_picked"].as_f64(), ratio(subject, picked));
+    assert_eq!(scene["picked_best"].is_string(), picked.is_some(), "the best plan is named");
     for row in list(scene, "contestants") {
         let name = &row["name"];
         close(
@@ -131,6 +134,27 @@ fn numbers_agree_with_each_other_and_files_are_whole() {
     let table = String::from_utf8(output.stdout).expect("text");
     assert!(table.lines().all(|line| line.chars().count() <= 100), "{table}");
     assert!(table.contains("clairvoyant"), "{table}");
+}
+
+/// The chosen plan is held against others, each of which gives the exact picture too.
+#[test]
+fn plans_picked_by_hand_are_timed_beside_the_chosen_one() {
+    let desk = desk();
+    let output = bench(&desk, &["2juy", "--plans", "--json", "b.json"]);
+    assert_eq!(code(&output), 0, "{output:?}");
+    let bench = json(&desk.path().join("b.json"));
+    let scene = &bench["scenes"][0];
+    consistent(scene);
+    let picked: Vec<_> = list(scene, "contestants").iter().filter(|row| row["kind"] == "picked").collect();
+    assert!(picked.len() >= 10, "{} plans", picked.len());
+    let descriptions: std::collections::BTreeSet<_> =
+        picked.iter().map(|row| row["description"].to_string()).collect();
+    assert_eq!(descriptions.len(), picked.len(), "some plan is there twice");
+    for row in picked {
+        assert_eq!((&row["verdict"], row["timing"].is_null()), (&"Equal".into(), false), "{row}");
+    }
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.contains("the best plan picked by hand"), "{said}");
 }
 
 #[test]

@@ -2,7 +2,9 @@
 //! exact one, whatever the tile, the grid and the frame before?
 
 use contract::{Camera, DEFAULT_LIGHT, Image, Scene, Size, Sphere};
+use optimized::crew::Crew;
 use optimized::double::{short_ends, short_error};
+use optimized::grid::{Grid, Memory};
 use optimized::host::{Scalar, Work};
 use optimized::machine::{LANES, Machine};
 use optimized::plan::{Arithmetic, Cells, Culling, Margins, Packet, Plan, Reason, Resolution, Voxelizer};
@@ -311,4 +313,84 @@ fn bits_are_lanes_at_every_level() {
             assert_eq!(level.run(Bits(x, y)), expected, "{level}");
         }
     }
+}
+
+/// A grid for tiles, whoever builds it, lists every sphere once: in the cell of its centre, or apart if it is large.
+#[test]
+fn a_grid_lists_every_sphere_once_whoever_builds_it() {
+    let seed = seed();
+    // Above what one worker does alone, and below.
+    for n in [300_000, 17, 1] {
+        let mut rng = generator(seed, n);
+        let mut sphere = || {
+            let size = if rng.random_range(0..2_000) == 0 { 64.0 } else { rng.random_range(0.5f32..1.0) };
+            let center = std::array::from_fn(|_| rng.random_range(-1.0f32..1.0));
+            Sphere { center, radius: 0.001 * size, color: [1; 3] }
+        };
+        let spheres: Vec<Sphere> = (0..n).map(|_| sphere()).collect();
+        let mut memory = Memory::default();
+        let mut build = |workers: usize| {
+            let crew = Crew::new(workers).expect("threads");
+            let grid =
+                Grid::by_center(Scalar, &Plan::fast(), &spheres, &mut memory, &crew).expect("in range");
+            let cells: i32 = grid.axes.iter().map(|axis| axis.n).product();
+            let rows: Vec<Vec<u32>> =
+                (0..cells.unsigned_abs() as usize).map(|cell| grid.row([cell; 2]).to_vec()).collect();
+            let large = grid.large.clone();
+            let (axes, stride, widen) = (grid.axes.clone(), grid.strides(), grid.widen);
+            memory.take(Some(grid));
+            (axes, stride, rows, large, widen)
+        };
+        let (axes, stride, rows, large, widen) = build(1);
+        for workers in [2, 3, 8] {
+            let again = build(workers);
+            assert_eq!(
+                (&again.2, &again.3, again.4),
+                (&rows, &large, widen),
+                "{workers} workers, seed {seed}"
+            );
+        }
+        assert_eq!(n == 300_000, large.len() > 20, "{} large of {n}, seed {seed}", large.len());
+        let mut place = vec![None; spheres.len()];
+        for (cell, ids) in rows.iter().enumerate() {
+            for &id in ids {
+                let sphere = spheres[id as usize];
+                let of = |i: usize| axes[i].cell(Scalar, Scalar.lanes([sphere.center[i]; LANES]))[0];
+                let wanted: usize = (0..3).map(|i| of(i).unsigned_abs() as usize * stride[i]).sum();
+                assert_eq!(cell, wanted, "sphere {id}: {sphere:?}, seed {seed}");
+                assert!(sphere.radius <= widen, "sphere {id}: {sphere:?} beyond {widen}, seed {seed}");
+                assert!(
+                    place[id as usize].replace(cell).is_none(),
+                    "sphere {id} is there twice, seed {seed}"
+                );
+            }
+        }
+        for &id in &large {
+            assert!(
+                place[id as usize].replace(usize::MAX).is_none(),
+                "sphere {id} is there twice, seed {seed}"
+            );
+        }
+        assert!(place.iter().all(Option::is_some), "a sphere is nowhere, seed {seed}");
+        println!("{n} spheres, {} cells, {} large", rows.len(), large.len());
+    }
+}
+
+/// Frames of several workers, asked for by the workers of somebody else's pool, come to an end: no frame waits within another.
+#[test]
+fn a_foreign_pool_may_ask_for_frames() {
+    let spheres =
+        (0..40u8).map(|k| Sphere { center: [0.0, 0.1 * f32::from(k), 3.0], radius: 0.2, color: [k; 3] });
+    let scene = Scene::new(spheres.collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(64, 64).expect("small");
+    let camera =
+        Camera::new([0.0; 3], [-0.5, -0.5, 1.0], [1.0 / 64.0, 0.0, 0.0], [0.0, 1.0 / 64.0, 0.0], size);
+    let camera = camera.expect("not degenerate");
+    let frame = || {
+        let tracer = Tracer::new(Plan::fast(), Level::best().expect("a level")).workers(3);
+        tracer.render(&scene, &camera).expect("a picture").image
+    };
+    let alone = pixels(&frame());
+    let together: Vec<_> = (0..200).into_par_iter().map(|_| pixels(&frame())).collect();
+    assert!(together.iter().all(|picture| *picture == alone), "pictures differ");
 }

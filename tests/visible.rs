@@ -3,6 +3,7 @@
 
 use contract::{Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
 use optimized::Form;
+use optimized::crew::Crew;
 use optimized::event::Events;
 use optimized::grid::Memory;
 use optimized::host::Scalar;
@@ -28,8 +29,16 @@ fn pins(size: f32, offset: f32) -> Vec<Sphere> {
 
 fn seen(plan: Plan, spheres: &[Sphere], camera: &Camera) -> (Scene, Seen) {
     let scene = Scene::new(spheres.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid by construction");
-    let seen = Seen::new(Scalar, plan, &scene, camera, &mut Memory::default(), &mut Events::default())
-        .expect("falls back");
+    let seen = Seen::new(
+        Scalar,
+        plan,
+        &scene,
+        camera,
+        &mut Memory::default(),
+        &mut Events::default(),
+        &Crew::alone(),
+    )
+    .expect("falls back");
     (scene, seen)
 }
 

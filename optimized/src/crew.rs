@@ -19,11 +19,17 @@ impl Crew {
     /// [`RenderError::Workers`] if the system gives no thread.
     pub fn new(workers: usize) -> Result<Self, RenderError> {
         if workers <= 1 {
-            return Ok(Self { others: None });
+            return Ok(Self::alone());
         }
         let others = ThreadPoolBuilder::new().num_threads(workers - 1).build();
         let others = others.map_err(|error| RenderError::Workers { workers, cause: error.to_string() })?;
         Ok(Self { others: Some(Arc::new(others)) })
+    }
+
+    /// The calling thread alone.
+    #[must_use]
+    pub fn alone() -> Self {
+        Self { others: None }
     }
 
     /// Workers, the calling thread included.
@@ -32,11 +38,25 @@ impl Crew {
         1 + self.others.as_ref().map_or(0, |others| others.current_num_threads())
     }
 
+    /// What each worker makes of its share of tasks: it takes the next one, for as long as there is one.
+    ///
+    /// # Panics
+    /// If `work` does.
+    pub fn share<T, R: Send>(
+        &self,
+        tasks: impl Iterator<Item = T> + Send,
+        work: impl Fn(&mut dyn FnMut() -> Option<T>) -> R + Sync,
+    ) -> Vec<R> {
+        let tasks = Mutex::new(tasks);
+        let next = || tasks.lock().expect("nothing panics while it holds the tasks").next();
+        self.each(|| work(&mut &next))
+    }
+
     /// What each worker makes of the same work, in no certain order.
     ///
     /// # Panics
     /// If `work` does.
-    pub fn each<R: Send>(&self, work: impl Fn() -> R + Sync) -> Vec<R> {
+    fn each<R: Send>(&self, work: impl Fn() -> R + Sync) -> Vec<R> {
         let Some(others) = &self.others else { return vec![work()] };
         let done = Mutex::new(Vec::with_capacity(self.size()));
         let one = || {
@@ -54,7 +74,8 @@ impl Crew {
         if rayon::current_thread_index().is_some() {
             // A worker of some other pool would take up that pool's tasks while it waits, frame within frame until its stack is full.
             // A thread of no pool just waits.
-            std::thread::scope(|scope| scope.spawn(all).join()).unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            std::thread::scope(|scope| scope.spawn(all).join())
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         } else {
             all();
         }

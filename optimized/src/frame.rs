@@ -12,7 +12,6 @@ use crate::settle::ALL;
 use crate::stripe::{Painter, Rect, Stripe};
 use crate::tile::{self, Tiles};
 use contract::{Camera, Image, MISS, Scene, Size};
-use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 /// A picture and how it came about.
@@ -136,7 +135,7 @@ pub fn render<M: Machine + Send + Sync>(
     }
     let start = Instant::now();
     rendering.events = Events::default();
-    let seen = Seen::new(m, plan, scene, camera, memory, &mut rendering.events)?;
+    let seen = Seen::new(m, plan, scene, camera, memory, &mut rendering.events, crew)?;
     rendering.times.build = start.elapsed();
     let image = &mut rendering.image;
     if image.size != camera.size() {
@@ -151,14 +150,14 @@ pub fn render<M: Machine + Send + Sync>(
     let rows = width * height as usize;
     let layers = image.ids.chunks_mut(rows).zip(image.t.chunks_mut(rows)).zip(image.rgba.chunks_mut(rows));
     let stripes = (0..).step_by(height as usize).zip(layers);
-    let stripes = Mutex::new(stripes.map(|(y, ((ids, t), rgba))| Stripe { y, width, ids, t, rgba }));
-    let next = || stripes.lock().expect("no worker panics while it holds the list").next();
-    let work = || {
+    let stripes = stripes.map(|(y, ((ids, t), rgba))| Stripe { y, width, ids, t, rgba });
+    let counts = crew.share(stripes, |next| {
         let mirrored = match plan.sharing {
             Sharing::Shared => None,
             // The same grid with the same events once more; an error would have come the first time.
             Sharing::Mirrored => {
-                Seen::new(m, plan, scene, camera, &mut Memory::default(), &mut Events::default()).ok()
+                let (mut memory, mut events) = (Memory::default(), Events::default());
+                Seen::new(m, plan, scene, camera, &mut memory, &mut events, &Crew::alone()).ok()
             }
         };
         let seen = mirrored.as_ref().unwrap_or(&seen);
@@ -183,8 +182,8 @@ pub fn render<M: Machine + Send + Sync>(
             );
         }
         worker.counts
-    };
-    rendering.counts = crew.each(work).into_iter().fold(Counts::default(), |sum, counts| sum + counts);
+    });
+    rendering.counts = counts.into_iter().fold(Counts::default(), |sum, counts| sum + counts);
     memory.take(seen.grid);
     rendering.times.trace = start.elapsed() - rendering.times.build;
     Ok(())

@@ -13,6 +13,8 @@
 //! What a cell is, a queue or a piece of one list (Lagae and Dutré 2008), is the plan's choice. The ids of a cell come in
 //! no order that anything may rely on.
 
+use crate::bins::Bins;
+use crate::crew::Crew;
 use crate::event::{Event, Events, RenderError};
 use crate::machine::{LANES, Machine};
 use crate::plan::{Cells, OnEvent, Plan, Resolution, Voxelizer};
@@ -69,23 +71,18 @@ pub struct Grid {
     storage: Storage,
 }
 
-/// Of a sphere that is in no cell.
-const NOWHERE: u32 = u32::MAX;
-
 /// What a grid for tiles was made in, kept for the next frame's.
 #[derive(Clone, Debug, Default)]
 pub struct Memory {
-    /// The cell of each sphere.
     places: Vec<u32>,
-    offsets: Vec<u32>,
-    ids: Vec<u32>,
+    bins: Bins,
 }
 
 impl Memory {
     /// Takes back what a grid was made of.
     pub fn take(&mut self, grid: Option<Grid>) {
-        if let Some(Grid { storage: Storage::Lists { offsets, ids }, .. }) = grid {
-            (self.offsets, self.ids) = (offsets, ids);
+        if let Some(Grid { large, storage: Storage::Lists { offsets, ids }, .. }) = grid {
+            self.bins = Bins { offsets, ids, large, radius: 0.0 };
         }
     }
 }
@@ -93,10 +90,7 @@ impl Memory {
 #[derive(Clone, Debug)]
 enum Storage {
     Queues(Vec<Queue>),
-    Lists {
-        offsets: Vec<u32>,
-        ids: Vec<u32>,
-    },
+    Lists { offsets: Vec<u32>, ids: Vec<u32> },
 }
 
 impl Bounds {
@@ -248,11 +242,12 @@ impl Grid {
     ///
     /// # Errors
     /// [`RenderError::Resolution`] for one that is out of range.
-    pub fn by_center<M: Machine>(
+    pub fn by_center<M: Machine + Send + Sync>(
         m: M,
         plan: &Plan,
         spheres: &[Sphere],
         memory: &mut Memory,
+        crew: &Crew,
     ) -> Result<Self, RenderError> {
         let (whole, large_from) = m.within(
             #[inline(always)]
@@ -260,30 +255,10 @@ impl Grid {
         );
         let n = resolution(plan, &whole, TILE_DENSITY * spheres.len() as f64, 0.0)?;
         let axes = [0, 1, 2].map(|i| Axis::new(m, whole[0][i], whole[1][i], n[i]));
-        let Memory { mut places, mut offsets, mut ids } = std::mem::take(memory);
-        offsets.clear();
-        offsets.resize(cells(&axes) + 1, 0);
-        let (large, widen) = m.within(
-            #[inline(always)]
-            || find_places(m, &axes, spheres, large_from, &mut places, &mut offsets),
-        );
-        // Where each cell ends, from where it is filled downwards.
-        let mut sum = 0;
-        for offset in &mut offsets {
-            sum += *offset;
-            *offset = sum;
-        }
-        ids.resize(spheres.len() - large.len(), 0);
-        for (&place, id) in places.iter().zip(0..) {
-            if place != NOWHERE {
-                let end = &mut offsets[place as usize];
-                *end -= 1;
-                ids[*end as usize] = id;
-            }
-        }
-        memory.places = places;
-        let storage = Storage::Lists { offsets, ids };
-        Ok(Self { axes, widen: WIDER * widen, large, storage })
+        let mut bins = std::mem::take(&mut memory.bins);
+        bins.fill(m, &axes, spheres, large_from, &mut memory.places, crew);
+        let Bins { offsets, ids, large, radius } = bins;
+        Ok(Self { axes, widen: WIDER * radius, large, storage: Storage::Lists { offsets, ids } })
     }
 
     /// Calls `visit` with each id of a cell. `live` = no makes every cell empty.
@@ -436,55 +411,6 @@ fn whole(boxes: &[Bounds]) -> [[f32; 3]; 2] {
     boxes.iter().fold([[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]], |[lo, hi], b| {
         [[0, 1, 2].map(|i| lo[i].min(b.lo[i])), [0, 1, 2].map(|i| hi[i].max(b.hi[i]))]
     })
-}
-
-/// The cell of each sphere's centre, and how many each cell has; apart the large ones, and the largest radius of the others.
-#[inline(always)]
-fn find_places<M: Machine>(
-    m: M,
-    axes: &[Axis; 3],
-    spheres: &[Sphere],
-    large_from: f32,
-    places: &mut Vec<u32>,
-    counts: &mut [u32],
-) -> (Vec<u32>, f32) {
-    let strides = strides(axes).map(|stride| u32::try_from(stride).expect("MAX_CELLS squared"));
-    let (mut large, mut largest, limit) = (Vec::new(), m.splat(0.0), m.splat(large_from));
-    places.clear();
-    for (chunk, first) in spheres.chunks(LANES).zip((0..).step_by(LANES)) {
-        let [mut x, mut y, mut z, mut r] = [[0.0; LANES]; 4];
-        for (lane, Sphere { center, radius, .. }) in chunk.iter().enumerate() {
-            [x[lane], y[lane], z[lane]] = *center;
-            r[lane] = *radius;
-        }
-        let [i, j, k] = [
-            m.to_array_i(axes[0].cell(m, m.lanes(x))),
-            m.to_array_i(axes[1].cell(m, m.lanes(y))),
-            m.to_array_i(axes[2].cell(m, m.lanes(z))),
-        ];
-        let radius = m.lanes(r);
-        let small = m.lt(radius, limit);
-        largest = m.select(small, m.max(largest, radius), largest);
-        let mut cells = [0; LANES];
-        for lane in 0..LANES {
-            let cell = [i[lane].cast_unsigned(), j[lane].cast_unsigned(), k[lane].cast_unsigned()];
-            cells[lane] = cell[0] * strides[0] + cell[1] * strides[1] + cell[2] * strides[2];
-        }
-        let mut apart = m.to_bits(m.not(small)) & ((1 << chunk.len()) - 1);
-        while apart != 0 {
-            let lane = apart.trailing_zeros();
-            large.push(first + lane);
-            cells[lane as usize] = NOWHERE;
-            apart &= apart - 1;
-        }
-        for &cell in &cells[..chunk.len()] {
-            if cell != NOWHERE {
-                counts[cell as usize] += 1;
-            }
-        }
-        places.extend_from_slice(&cells[..chunk.len()]);
-    }
-    (large, m.to_array(m.largest(largest))[0])
 }
 
 /// The box around all centres, and the radius from which on a sphere is large: the least power of two that one in 64 and 32 more spheres

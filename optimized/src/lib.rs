@@ -57,6 +57,7 @@ pub mod integer;
 pub mod exact;
 pub mod settle;
 
+mod bins;
 pub mod silhouette;
 pub mod stripe;
 pub mod tile;

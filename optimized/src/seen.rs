@@ -4,6 +4,7 @@
 use crate::bound::{self, Bound, Rule};
 use crate::camera::Block;
 use crate::certain::{self, Ball, Rays, Side};
+use crate::crew::Crew;
 use crate::cull::{self, Planes};
 use crate::double;
 use crate::event::{Event, Events, RenderError};
@@ -82,17 +83,18 @@ impl std::ops::Add for Counts {
 }
 
 impl Seen {
-    /// Prepares spheres and builds the grid.
+    /// Prepares spheres and builds the grid; for tiles, all workers do.
     ///
     /// # Errors
     /// [`RenderError`] if the plan refuses what the scene does.
-    pub fn new<M: Machine>(
+    pub fn new<M: Machine + Send + Sync>(
         m: M,
         plan: Plan,
         scene: &Scene,
         camera: &Camera,
         memory: &mut Memory,
         events: &mut Events,
+        crew: &Crew,
     ) -> Result<Self, RenderError> {
         let tiles = match plan.packet {
             Packet::Block => false,
@@ -117,7 +119,7 @@ impl Seen {
             return Ok(Self::without_grid(plan, scene, camera.eye()));
         }
         if tiles {
-            let grid = Some(Grid::by_center(m, &plan, scene, memory)?);
+            let grid = Some(Grid::by_center(m, &plan, scene, memory, crew)?);
             return Ok(Self { eye: camera.eye(), plan, spheres: Vec::new(), bounds: Vec::new(), grid });
         }
         let mut seen = Self::without_grid(plan, scene, camera.eye());

@@ -19,6 +19,8 @@ pub enum Kind {
     Subject,
     /// The same kernel, told beforehand which spheres each block shows.
     Limit,
+    /// The same tracer with a plan picked by hand.
+    Picked,
     /// Embree, in one of its ways.
     Embree,
     /// A tracer of other people.

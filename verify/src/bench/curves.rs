@@ -185,7 +185,8 @@ impl<'a> Course<'a> {
 
     fn point(&mut self, input: &Input<'_>, progress: Progress<'_>) -> Result<SceneBench, BenchError> {
         let Asked { plan, level, effort, seed, .. } = *self.asked;
-        let setting = Setting { plan, level, threads: self.threads, field: &self.field, effort, seed };
+        let setting =
+            Setting { plan, level, threads: self.threads, field: &self.field, picked: false, effort, seed };
         let scene = bench(input, &setting, progress)?;
         let kept = scene.rows(Kind::Embree).filter(|row| row.timing.is_some() && row.remark.is_none());
         self.field.narrow(&kept.map(|row| row.name.as_str()).collect::<Vec<_>>());

@@ -10,7 +10,7 @@ use crate::verdict::Verdict;
 use serde::Serialize;
 
 /// Version of the layout of the JSON file.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// All of a run.
 #[derive(Clone, Debug, Serialize)]
@@ -67,6 +67,8 @@ pub struct Summary {
     pub ratio_to_limit_mean: Option<f64>,
     /// The largest of them.
     pub ratio_to_limit_most: Option<f64>,
+    /// The largest of the ratios to the best plan picked by hand.
+    pub ratio_to_picked_most: Option<f64>,
 }
 
 /// One frame of one scene.
@@ -94,6 +96,10 @@ pub struct SceneBench {
     pub embree_best: Option<String>,
     /// The subject's median over the clairvoyant's: 1 would be no sphere met in vain.
     pub ratio_to_limit: Option<f64>,
+    /// The subject's median over that of the best plan picked by hand: what is lost by choosing from the scene alone.
+    pub ratio_to_picked: Option<f64>,
+    /// The plan that was best.
+    pub picked_best: Option<String>,
     /// Who took part.
     pub contestants: Vec<Row>,
 }
@@ -192,6 +198,7 @@ impl Summary {
             ratio_to_embree_least: embree.into_iter().reduce(f64::min),
             ratio_to_limit_mean: geometric_mean(&limit),
             ratio_to_limit_most: limit.into_iter().reduce(f64::max),
+            ratio_to_picked_most: all(|s| s.ratio_to_picked).into_iter().reduce(f64::max),
         }
     }
 }

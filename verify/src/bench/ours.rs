@@ -6,7 +6,7 @@
 use super::contestant::{Contestant, Frame, Kind, Layers, Oath};
 use crate::subject::{Grid, NamedPlan, Subject, SubjectError};
 use contract::{Camera, Image, Scene};
-use optimized::plan::Chosen;
+use optimized::plan::{Chosen, Packet, Resolution};
 use optimized::{Known, Level, Plan, Session, Tracer};
 
 /// The plan that is timed on a scene: the one place where it is chosen.
@@ -18,9 +18,23 @@ pub fn chosen(plan: NamedPlan, scene: &Scene) -> Chosen {
     }
 }
 
+/// Plans picked by hand, that the chosen one is to be held against: [`Plan::fast`] with other tiles, with other grids and the chosen tile,
+/// and without tiles. Each with its name.
+#[must_use]
+pub fn picked(scene: &Scene) -> Vec<(String, Plan)> {
+    let chosen = Plan::for_scene(scene).plan;
+    let sides = [8, 16, 24, 32, 48, 64].map(|side| (format!("tiles-{side}"), Packet::Tile { side }));
+    let packets = sides.into_iter().chain([("blocks".to_owned(), Packet::Block)]);
+    let packets = packets.map(|(name, packet)| (name, Plan { packet, ..chosen }));
+    let grids = [2, 4, 8, 16, 32, 64]
+        .map(|n| (format!("grid-{n}"), Plan { resolution: Resolution::Fixed(n), ..chosen }));
+    packets.chain(grids).collect()
+}
+
 /// The tracer, or with `known` its limit.
 pub struct Ours {
     name: String,
+    kind: Kind,
     plan: Chosen,
     oath: Oath,
     session: Session,
@@ -36,7 +50,17 @@ impl Ours {
         let oath = Grid::new(plan, level, false, None).promise().into();
         let (name, plan) = (plan.name().to_owned(), chosen(plan, scene));
         let session = Tracer::new(plan.plan, level).workers(threads).session()?;
-        Ok(Self { name, plan, oath, session, known: None })
+        Ok(Self { name, kind: Kind::Subject, plan, oath, session, known: None })
+    }
+
+    /// The tracer with a plan picked by hand, of [`picked`].
+    ///
+    /// # Errors
+    /// As [`Ours::new`].
+    pub fn picked((name, plan): (String, Plan), level: Level, threads: usize) -> Result<Self, SubjectError> {
+        let session = Tracer::new(plan, level).workers(threads).session()?;
+        let plan = Chosen { plan, reasons: Vec::new() };
+        Ok(Self { name, kind: Kind::Picked, plan, oath: Oath::Exact, session, known: None })
     }
 
     /// The same told what it will see, from the exact picture.
@@ -51,7 +75,7 @@ impl Ours {
         truth: &Image,
     ) -> Result<Self, SubjectError> {
         let ours = Self::new(plan, scene, level, threads)?;
-        Ok(Self { name: "clairvoyant".into(), known: Some(Known::of(truth)), ..ours })
+        Ok(Self { name: "clairvoyant".into(), kind: Kind::Limit, known: Some(Known::of(truth)), ..ours })
     }
 }
 
@@ -74,7 +98,7 @@ impl Contestant for Ours {
     }
 
     fn kind(&self) -> Kind {
-        if self.known.is_some() { Kind::Limit } else { Kind::Subject }
+        self.kind
     }
 
     fn oath(&self) -> Oath {

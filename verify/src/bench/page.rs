@@ -58,6 +58,7 @@ pub fn page(bench: &Bench) -> Result<String, askama::Error> {
         ("times at least", summary.ratio_to_embree_least),
         ("times the clairvoyant's time, geometric mean", summary.ratio_to_limit_mean),
         ("times at most", summary.ratio_to_limit_most),
+        ("times the best plan's time at most", summary.ratio_to_picked_most),
     ];
     let page = Page {
         bench,
@@ -74,7 +75,11 @@ pub fn page(bench: &Bench) -> Result<String, askama::Error> {
 
 fn table(scene: &SceneBench) -> Table {
     let frame = if scene.frame > 0 { format!(", frame {}", scene.frame) } else { String::new() };
-    let ratios = [("ratio to Embree", scene.ratio_to_embree), ("ratio to the limit", scene.ratio_to_limit)];
+    let ratios = [
+        ("ratio to Embree", scene.ratio_to_embree),
+        ("ratio to the limit", scene.ratio_to_limit),
+        ("ratio to the best plan picked by hand", scene.ratio_to_picked),
+    ];
     let own = scene.subject().and_then(Row::seconds);
     Table {
         heading: format!("{}{frame}", scene.name),
@@ -122,17 +127,20 @@ fn line(row: &Row, own: Option<f64>) -> Line {
 fn class(row: &Row) -> &'static str {
     match row.kind {
         Kind::Subject => "subject",
-        Kind::Limit => "limit",
+        Kind::Limit | Kind::Picked => "limit",
         Kind::Embree => "embree",
         Kind::Peer if row.name == "bvh" => "peer",
         Kind::Peer => "other",
     }
 }
 
-/// What is drawn of a scene: everyone that was timed, of Embree the best.
+/// What is drawn of a scene: everyone that was timed, of Embree the best, no plan picked by hand.
 fn drawn(scene: &SceneBench) -> impl Iterator<Item = &Row> {
-    let best = scene.embree_best.as_ref();
-    scene.contestants.iter().filter(move |row| row.kind != Kind::Embree || Some(&row.name) == best)
+    scene.contestants.iter().filter(|row| match row.kind {
+        Kind::Embree => Some(&row.name) == scene.embree_best.as_ref(),
+        Kind::Picked => false,
+        Kind::Subject | Kind::Limit | Kind::Peer => true,
+    })
 }
 
 /// A label that Embree's ways share.

@@ -37,6 +37,8 @@ pub struct Setting<'a> {
     pub threads: usize,
     /// The outsiders, with as many threads.
     pub field: &'a Field,
+    /// Whether plans picked by hand are timed too.
+    pub picked: bool,
     /// How long.
     pub effort: Effort,
     /// Of random rays.
@@ -149,10 +151,15 @@ fn entrants(
     setting: &Setting<'_>,
     truth: &Image,
 ) -> Result<Vec<Box<dyn Contestant>>, SubjectError> {
-    let Setting { plan, level, threads, field, .. } = *setting;
+    let Setting { plan, level, threads, field, picked, .. } = *setting;
     let subject = Ours::new(plan, input.scene, level, threads)?;
     let limit = Ours::clairvoyant(plan, input.scene, level, threads, truth)?;
     let mut entrants: Vec<Box<dyn Contestant>> = vec![Box::new(subject), Box::new(limit)];
+    if picked {
+        for plan in super::ours::picked(input.scene) {
+            entrants.push(Box::new(Ours::picked(plan, level, threads)?));
+        }
+    }
     entrants.extend(field.contestants(input.camera));
     Ok(entrants)
 }
@@ -242,6 +249,8 @@ fn told(input: &Input<'_>, setting: &Setting<'_>, truth: Truth, rounds: usize, r
         ratio_to_embree: None,
         embree_best: None,
         ratio_to_limit: None,
+        ratio_to_picked: None,
+        picked_best: None,
         contestants: rows,
     };
     let seconds = |kind| {
@@ -250,11 +259,14 @@ fn told(input: &Input<'_>, setting: &Setting<'_>, truth: Truth, rounds: usize, r
         let timed = timed.filter_map(|row| Some((row.seconds()?, row.name.clone())));
         timed.min_by(|x, y| x.0.total_cmp(&y.0))
     };
-    let [subject, limit, embree] = [Kind::Subject, Kind::Limit, Kind::Embree].map(seconds);
+    let [subject, limit, picked, embree] =
+        [Kind::Subject, Kind::Limit, Kind::Picked, Kind::Embree].map(seconds);
     if let Some((subject, _)) = subject {
         bench.ratio_to_limit = limit.map(|(limit, _)| subject / limit);
+        bench.ratio_to_picked = picked.as_ref().map(|(picked, _)| subject / picked);
         bench.ratio_to_embree = embree.as_ref().map(|(embree, _)| embree / subject);
     }
     bench.embree_best = embree.map(|(_, name)| name);
+    bench.picked_best = picked.map(|(_, name)| name);
     bench
 }

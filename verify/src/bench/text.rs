@@ -1,5 +1,5 @@
 //! A benchmark for the terminal: a line for each contestant that matters on each scene, then what holds over all scenes. Of
-//! Embree's ways the best is shown; the others are in the page and in the JSON file.
+//! Embree's ways, and of plans picked by hand, the best is shown; the others are in the page and in the JSON file.
 
 use super::contestant::Kind;
 use super::data::{Bench, Curve, Growth, Row, SceneBench};
@@ -9,6 +9,9 @@ use crate::report::word;
 use crate::report::words::{NONE, count, duration, figure, sign};
 use anstyle::Style;
 use textwrap::core::display_width;
+
+/// What choosing a plan from the scene alone may cost, in times of the best plan.
+const PICKED: f64 = 1.15;
 
 /// Heading of each column and the most it may take: with the spaces between them 100 columns.
 const COLUMNS: [(&str, usize); 9] = [
@@ -51,11 +54,14 @@ pub fn text(bench: &Bench, color: bool) -> String {
     text + &format!("{shade}{} {}{shade:#}\n", sign(verdict), word(verdict))
 }
 
-/// All but those of Embree's ways that were not the best.
+/// All but those of Embree's ways, and of the plans picked by hand, that were not the best.
 fn shown(scene: &SceneBench) -> impl Iterator<Item = &Row> {
-    let best = scene.embree_best.as_ref();
-    let none = best.is_none();
-    scene.contestants.iter().filter(move |row| row.kind != Kind::Embree || none || Some(&row.name) == best)
+    let is_best = |row: &Row, best: &Option<String>| best.is_none() || Some(&row.name) == best.as_ref();
+    scene.contestants.iter().filter(move |row| match row.kind {
+        Kind::Embree => is_best(row, &scene.embree_best),
+        Kind::Picked => is_best(row, &scene.picked_best),
+        Kind::Subject | Kind::Limit | Kind::Peer => true,
+    })
 }
 
 fn cells(scene: &SceneBench, row: &Row) -> Cells {
@@ -107,6 +113,14 @@ pub fn sentences(bench: &Bench) -> Vec<String> {
             "ratio to the limit: geometric mean {}, at most {}. The limit is the clairvoyant.",
             figure(mean),
             figure(most)
+        ));
+    }
+    if let Some(most) = summary.ratio_to_picked_most {
+        said.push(format!(
+            "ratio to the best plan picked by hand: at most {}, where at most {} is wanted{}",
+            figure(most),
+            figure(PICKED),
+            if most <= PICKED { "." } else { ": MISSED." }
         ));
     }
     for scene in &bench.scenes {

@@ -113,6 +113,9 @@ pub(crate) struct Bench {
     /// Time for measuring on each scene, if there is no --rounds
     #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]
     pub(crate) seconds: f64,
+    /// Also time plans picked by hand: what does choosing one from the scene alone lose?
+    #[arg(long)]
+    pub(crate) plans: bool,
     /// Also time how times grow: with random spheres up to --most-spheres, with the pixels of the first scene up to --most-rows,
     /// with threads up to one a core
     #[arg(long)]

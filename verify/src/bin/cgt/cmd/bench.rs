@@ -40,7 +40,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let baseline = baseline.transpose()?;
     let (field, absent) = field(args, level, threads);
     let effort = Effort { rounds: args.rounds.map(usize::from), time: Duration::from_secs_f64(args.seconds) };
-    let setting = Setting { plan, level, threads, field: &field, effort, seed: seed() };
+    let setting = Setting { plan, level, threads, field: &field, picked: args.plans, effort, seed: seed() };
     let names = if args.scenes.is_empty() { default_scenes() } else { args.scenes.clone() };
     let scenes = names.iter().map(|word| one(word, args, &setting)).collect::<Result<Vec<_>, _>>()?;
     let curves =
