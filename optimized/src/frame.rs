@@ -9,7 +9,7 @@ use crate::machine::Machine;
 use crate::plan::{Packet, Plan, Sharing};
 use crate::seen::{Counts, Seen, Worker};
 use crate::settle::ALL;
-use crate::stripe::{Painter, Rect, Stripe};
+use crate::stripe::{NO_COLUMN, Painter, Rect, Stripe};
 use crate::tile::{self, Tiles};
 use contract::{Camera, Image, MISS, Scene, Size};
 use std::time::{Duration, Instant};
@@ -26,6 +26,16 @@ pub struct Rendering {
     pub counts: Counts,
     /// How long it took.
     pub times: Times,
+    /// Where the image is not just background, so that the next frame need not clear all of it.
+    left: Left,
+}
+
+/// What a frame left on its image.
+#[derive(Clone, Debug, Default)]
+struct Left {
+    background: [u8; 3],
+    /// As [`Stripe::columns`], of all rows of blocks.
+    columns: Vec<[u32; 2]>,
 }
 
 /// Where the time of a frame went.
@@ -97,7 +107,7 @@ impl Rendering {
     /// An empty frame, whose memory is taken by those that follow.
     pub(crate) fn nothing() -> Result<Self, RenderError> {
         let (image, events) = (Image::new(Size::new(1, 1)?, [0; 3])?, Events::default());
-        Ok(Self { image, events, counts: Counts::default(), times: Times::default() })
+        Ok(Self { image, events, counts: Counts::default(), times: Times::default(), left: Left::default() })
     }
 }
 
@@ -137,9 +147,11 @@ pub fn render<M: Machine + Send + Sync>(
     rendering.events = Events::default();
     let seen = Seen::new(m, plan, scene, camera, memory, &mut rendering.events, crew)?;
     rendering.times.build = start.elapsed();
-    let image = &mut rendering.image;
-    if image.size != camera.size() {
+    let (image, left) = (&mut rendering.image, &mut rendering.left);
+    if image.size != camera.size() || left.background != scene.background() || left.columns.is_empty() {
         *image = Image::new(camera.size(), scene.background())?;
+        let rows_of_blocks = camera.size().height().div_ceil(BLOCK) as usize;
+        *left = Left { background: scene.background(), columns: vec![NO_COLUMN; rows_of_blocks] };
     }
     let side = match plan.packet {
         Packet::Block => BLOCK,
@@ -149,8 +161,9 @@ pub fn render<M: Machine + Send + Sync>(
     let height = stripe_height(side, camera.size().height(), crew.size());
     let rows = width * height as usize;
     let layers = image.ids.chunks_mut(rows).zip(image.t.chunks_mut(rows)).zip(image.rgba.chunks_mut(rows));
+    let layers = layers.zip(left.columns.chunks_mut((height / BLOCK) as usize));
     let stripes = (0..).step_by(height as usize).zip(layers);
-    let stripes = stripes.map(|(y, ((ids, t), rgba))| Stripe { y, width, ids, t, rgba });
+    let stripes = stripes.map(|(y, (((ids, t), rgba), columns))| Stripe { y, width, ids, t, rgba, columns });
     let counts = crew.share(stripes, |next| {
         let mirrored = match plan.sharing {
             Sharing::Shared => None,
@@ -227,7 +240,7 @@ fn fill<M: Machine>(
     }
 }
 
-/// Fills a stripe tile by tile. It is cleared first as a whole: written row by row its pixels come into the cache as fast as they can.
+/// Fills a stripe tile by tile, after it was cleared of what the last frame left there.
 #[inline(always)]
 fn fill_tiles<M: Machine>(
     tiles: &mut Tiles<'_, M>,
@@ -238,7 +251,7 @@ fn fill_tiles<M: Machine>(
 ) {
     let y = [stripe.y, stripe.y + u32::try_from(stripe.ids.len() / stripe.width).expect("rows of an image")];
     let width = camera.size().width();
-    tiles.clear(Rect { x: [0, width], y }, stripe);
+    tiles.clear(stripe);
     for x in (0..width).step_by(side as usize) {
         tiles.trace(Rect { x: [x, (x + side).min(width)], y }, known, stripe);
     }

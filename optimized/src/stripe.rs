@@ -20,7 +20,12 @@ pub struct Stripe<'a> {
     pub t: &'a mut [f32],
     /// Of each pixel, row by row.
     pub rgba: &'a mut [[u8; 4]],
+    /// Of each row of blocks, outside which columns every pixel is a miss; see [`NO_COLUMN`].
+    pub columns: &'a mut [[u32; 2]],
 }
+
+/// Of a row of blocks that is nothing but misses: from and to, of which the first is beyond the second.
+pub const NO_COLUMN: [u32; 2] = [u32::MAX, 0];
 
 /// Pixels, from and to.
 #[derive(Clone, Copy, Debug)]
@@ -86,17 +91,20 @@ impl<M: Machine> Painter<M> {
         stripe.put(at, wanted, &m.to_array_i(ids), &m.to_array(answers.t), &m.to_array_i(colors));
     }
 
-    /// Makes misses of all pixels of a tile. Written row by row they come into the cache as fast as they can, and most stay.
+    /// Makes misses of all pixels that are none. Written row by row they come into the cache as fast as they can, and most stay.
     #[inline(always)]
-    pub fn clear(&self, tile: Rect, stripe: &mut Stripe<'_>) {
-        let (x, background) = (tile.x.map(|x| x as usize), self.background.to_le_bytes());
-        for y in tile.y[0]..tile.y[1] {
-            let row = (y - stripe.y) as usize * stripe.width;
-            let pixels = row + x[0]..row + x[1];
-            stripe.ids[pixels.clone()].fill(MISS);
-            stripe.t[pixels.clone()].fill(f32::INFINITY);
-            stripe.rgba[pixels].fill(background);
+    pub fn clear(&self, stripe: &mut Stripe<'_>) {
+        let background = self.background.to_le_bytes();
+        let rows = stripe.ids.chunks_mut(stripe.width).zip(stripe.t.chunks_mut(stripe.width));
+        for (y, ((ids, t), rgba)) in rows.zip(stripe.rgba.chunks_mut(stripe.width)).enumerate() {
+            let [from, to] = stripe.columns[y / BLOCK as usize].map(|x| x as usize);
+            if from < to {
+                ids[from..to].fill(MISS);
+                t[from..to].fill(f32::INFINITY);
+                rgba[from..to].fill(background);
+            }
         }
+        stripe.columns.fill(NO_COLUMN);
     }
 }
 
@@ -111,6 +119,8 @@ impl Stripe<'_> {
         t: &[f32; LANES],
         colors: &[i32; LANES],
     ) {
+        let columns = &mut self.columns[((y - self.y) / BLOCK) as usize];
+        *columns = [columns[0].min(x), columns[1].max((x + BLOCK).min(self.width as u32))];
         let (x, side) = (x as usize, BLOCK as usize);
         let first = (y - self.y) as usize * self.width + x;
         if wanted == ALL && x + side <= self.width && first + 3 * self.width + side <= self.ids.len() {

@@ -202,8 +202,8 @@ impl<'a, M: Machine> Tiles<'a, M> {
 
     /// Makes misses of all pixels; a tile writes those that hit.
     #[inline(always)]
-    pub fn clear(&self, pixels: Rect, stripe: &mut Stripe<'_>) {
-        self.look.painter.clear(pixels, stripe);
+    pub fn clear(&self, stripe: &mut Stripe<'_>) {
+        self.look.painter.clear(stripe);
     }
 
     /// What they cost.
