@@ -96,6 +96,27 @@
 //! D = r*r - dot(l, l);   s = sqrt(D * w);  near = -h - s;  far = -h + s
 //! ```
 //!
+//! # 6. The arithmetic of the SPU
+//!
+//! Both forms of rule 5 also in the single precision of the Cell's SPU, whose numbers are 32 bits that are read otherwise. With sign s,
+//! exponent e (8 bits) and fraction f (23 bits) a pattern is zero if e = 0, whatever f, and else (−1)^s 1.f 2^(e − 127), up to e = 255: there
+//! is no infinity, no NaN and no subnormal number. In place of IEEE 754:
+//!
+//! - `add`, `sub`, `mul`, `fma(x, y, z)` = xy + z and `fnms(x, y, z)` = z − xy are the real result of their operands, cut off towards zero to
+//!   24 bits, once. A result below 2⁻¹²⁶ in magnitude is +0, as zero is; one of 2¹²⁹ or more is the largest number, 0x7fffffff, with the
+//!   result's sign. Negation flips the sign bit. Comparison is that of the numbers, both zeros being equal.
+//! - `frest(x)` has the sign of x, the exponent 253 − e, or 0 if that is below 0, and the entry of [`spu::FREST`] at the five upper bits of f as fraction; of a
+//!   zero it is 0x7fffffff with the sign of x.
+//! - `frsqest(x)`, of |x|, has the sign 0, the exponent 190 − ⌊(e + 1) / 2⌋, and the entry of [`spu::FRSQEST`] at the lowest bit of e and the five upper
+//!   bits of f, as one number of six bits, as fraction; of a zero it is 0x7fffffff.
+//! - `fi(x, y)` has the sign and the exponent of y. With B the upper 13 and S the lower 10 bits of y's fraction, and Y the lower 19 bits of x, its
+//!   fraction is that of 1 + 2⁻¹³ B − 2⁻³² S Y, cut off to 23 bits. (It never goes below 1.)
+//! - `div(x, y)`: `w = fi(y, frest(y)); q = mul(x, w); fma(fnms(q, y, x), w, q)`.
+//! - `sqrt(x)`: `w = fi(x, frsqest(x)); g = mul(x, w); fma(fnms(g, g, x), mul(w, 0.5), g)`.
+//!
+//! Of the ending of rule 5 t is a hit only if it is 2¹²⁸ (the pattern of +∞) or less as such a number. A direction that is zero hits nothing. The eye, centres, radii and
+//! directions are taken as patterns; t is one too. Rules 1 and 4 stay in IEEE 754.
+//!
 //! # What is refused
 //!
 //! [`SceneError`], [`CameraError`] and [`SizeError`] name the sphere, field or side and its value. An empty
@@ -104,6 +125,7 @@
 mod camera;
 mod image;
 mod scene;
+pub mod spu;
 
 pub use camera::{Camera, CameraError};
 pub use image::{Image, MAX_PIXELS, MAX_SIDE, MISS, Size, SizeError};
