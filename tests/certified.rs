@@ -80,7 +80,7 @@ fn judge(kind: Kind, seed: u64, i: u64, levels: &[Level]) -> Tally {
     let mut rng = generator(seed, i);
     let case = case(kind, &mut rng);
     let scene = Scene::new(case.spheres.clone(), [0; 3], DEFAULT_LIGHT).expect("valid by construction");
-    let seen = Seen::without_grid(Plan::fast(), scene.spheres(), case.ray.eye);
+    let seen = Seen::without_grid(Scalar, Plan::fast(), scene.spheres(), case.ray.eye);
     let dir = rays(&case, &mut rng);
     let level = levels[usize::try_from(i).expect("fits") / KINDS.len() % levels.len()];
     let (t, id, counts) = level.run(Trace(&seen, &scene, dir));
@@ -168,7 +168,7 @@ fn rounding_alone_is_not_enough() {
     for i in 0..2000 {
         let case = case(Kind::NearEqualRoots, &mut generator(seed, i));
         let scene = Scene::new(case.spheres.clone(), [0; 3], DEFAULT_LIGHT).expect("valid by construction");
-        let seen = Seen::without_grid(plan, scene.spheres(), case.ray.eye);
+        let seen = Seen::without_grid(Scalar, plan, scene.spheres(), case.ray.eye);
         let (t, id, _) = Trace(&seen, &scene, case.ray.dir.map(|d| [d; LANES])).on(Scalar);
         let given = (id[0] != NONE).then(|| (id[0].unsigned_abs(), t[0].to_bits()));
         wrong += u32::from(given != truth(&case.ray, &scene));

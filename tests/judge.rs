@@ -14,7 +14,13 @@ use verify::seed::{count, generator, seed};
 use verify::subject::{Promise, Rounding};
 use verify::verdict::{Comparison, Verdict};
 
-const FORMS: [Rounding; 3] = [Rounding::TextbookF64, Rounding::TextbookF32, Rounding::PerpendicularF32];
+const FORMS: [Rounding; 5] = [
+    Rounding::TextbookF64,
+    Rounding::TextbookF32,
+    Rounding::PerpendicularF32,
+    Rounding::TextbookSpu,
+    Rounding::PerpendicularSpu,
+];
 
 struct Bench {
     scene: Scene,

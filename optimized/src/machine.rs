@@ -44,6 +44,11 @@ pub trait Machine: Copy {
     type I: Copy;
     /// Sixteen times yes or no.
     type B: Copy;
+    /// Who does the SPU's arithmetic (contract, rule 6) beside this machine: a machine whose f32 are the SPU's numbers.
+    type Spu: Machine;
+
+    /// That machine.
+    fn spu(self) -> Self::Spu;
 
     /// Rim: does work with this machine's instructions enabled, the one door into them. Everything below it is
     /// inlined into it.

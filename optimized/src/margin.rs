@@ -31,6 +31,11 @@
 //! |P − c|² <= r² + 21u (F² + r²) + 40u (F + r) S + (20u (F + r))². We take **R² = r² + 64u (F + r)²**. At
 //! F = 2,000 r that is R = 4 r: the textbook form really does report hits that far out.
 //!
+//! *On the SPU* (contract, rule 6) an operation is off by less than 2u of its result, division by less than 4u and the root by less than
+//! 6u (measured by `tests/spu_values.rs`). In the derivations division and root stand once on a path, so all terms are less
+//! than four times as large with 2u counted twice for them: we take **256u in place of 64u**. What is lost below 2⁻¹²⁶ moves P by less than
+//! 2⁻⁴³ under the root of D w, which 256u r exceeds for radii from 2⁻²⁰; [`in_range`] asks for that.
+//!
 //! *Certified.* The hit is the true one, whose point is on the surface: **R = r**. Its P is that of the true root, not of the
 //! rounded t; the walk's early end goes by an upper bound of the root, below which no visited slice is missing.
 //!
@@ -54,15 +59,19 @@ const SLACK: f64 = 64.0 / (1u32 << 24) as f64;
 #[must_use]
 #[allow(clippy::cast_possible_truncation, reason = "rounded up right after")]
 pub fn reach(margins: Margins, arithmetic: Arithmetic, f: [f32; 3], radius: f32) -> f32 {
-    let Arithmetic::Rounded(form) = arithmetic else { return radius };
+    let (form, slack) = match arithmetic {
+        Arithmetic::Certified => return radius,
+        Arithmetic::Rounded(form) => (form, SLACK),
+        Arithmetic::Spu(form) => (form, 4.0 * SLACK),
+    };
     if margins == Margins::None {
         return radius;
     }
     let r = f64::from(radius);
     let distance = f.iter().map(|&x| f64::from(x) * f64::from(x)).sum::<f64>().sqrt();
     let reach = match form {
-        Form::Perpendicular => r + SLACK * (distance + r),
-        Form::Textbook => (r * r + SLACK * (distance + r) * (distance + r)).sqrt(),
+        Form::Perpendicular => r + slack * (distance + r),
+        Form::Textbook => (r * r + slack * (distance + r) * (distance + r)).sqrt(),
     };
     (reach as f32).next_up()
 }
@@ -83,13 +92,15 @@ pub fn sphere_in_range(sphere: &Sphere) -> bool {
 
 /// Whether the derivation above holds for a scene: no step of either form can over- or underflow.
 #[must_use]
-pub fn in_range(spheres: &[Sphere], camera: &Camera) -> bool {
+pub fn in_range(arithmetic: Arithmetic, spheres: &[Sphere], camera: &Camera) -> bool {
     let (shortest, longest) = direction_lengths(camera);
     let million = f64::from(1u32 << 20);
     camera.eye().iter().all(|&x| x.abs() <= FARTHEST)
         && shortest >= 1.0 / million
         && longest <= million
         && spheres.iter().all(sphere_in_range)
+        && (!matches!(arithmetic, Arithmetic::Spu(_))
+            || spheres.iter().all(|s| f64::from(s.radius) >= 1.0 / million))
 }
 
 /// Lower and upper bounds of |d| over all pixels: the distance of the picture's plane from the eye, and the

@@ -84,6 +84,9 @@ pub enum Margins {
 pub enum Arithmetic {
     /// As one of the f32 forms rounds it (the paper).
     Rounded(Form),
+    /// As one of them cuts it off on the SPU (contract, rule 6). The way to the spheres is gone in IEEE 754, with margins that cover the
+    /// SPU's errors; the sphere kernel alone runs in its arithmetic.
+    Spu(Form),
     /// As it is in truth: f32 where its error bound allows ([`crate::certain`]), else f64, else integers ([`crate::settle`]).
     Certified,
 }
@@ -290,6 +293,8 @@ impl fmt::Display for Plan {
         let arithmetic = match self.arithmetic {
             Arithmetic::Rounded(Form::Textbook) => "textbook f32",
             Arithmetic::Rounded(Form::Perpendicular) => "perpendicular f32",
+            Arithmetic::Spu(Form::Textbook) => "textbook on the SPU",
+            Arithmetic::Spu(Form::Perpendicular) => "perpendicular on the SPU",
             Arithmetic::Certified => "certified exact",
         };
         let on_event = match self.on_event {

@@ -30,6 +30,8 @@ pub struct Seen {
     pub spheres: Vec<Prepared>,
     /// Their bounds and the eye's side, if the plan's arithmetic is certified.
     pub bounds: Vec<(Bound, Side)>,
+    /// The spheres relative to the eye in the SPU's arithmetic, if the plan has it.
+    pub on_spu: Vec<Prepared>,
     /// The grid; `None` if there is nothing to hit, or if margins are wanted for a scene for which there are none: then
     /// every sphere is met by every ray.
     pub grid: Option<Grid>,
@@ -108,7 +110,7 @@ impl Seen {
             }
         };
         let scene = scene.spheres();
-        let in_range = plan.margins == Margins::None || margin::in_range(scene, camera);
+        let in_range = plan.margins == Margins::None || margin::in_range(plan.arithmetic, scene, camera);
         if !in_range {
             events.push(Event::OutOfRange);
             if plan.on_event == OnEvent::Refuse {
@@ -116,13 +118,14 @@ impl Seen {
             }
         }
         if !in_range || scene.is_empty() {
-            return Ok(Self::without_grid(plan, scene, camera.eye()));
+            return Ok(Self::without_grid(m, plan, scene, camera.eye()));
         }
         if tiles {
             let grid = Some(Grid::by_center(m, &plan, scene, memory, crew)?);
-            return Ok(Self { eye: camera.eye(), plan, spheres: Vec::new(), bounds: Vec::new(), grid });
+            let (spheres, bounds, on_spu) = (Vec::new(), Vec::new(), Vec::new());
+            return Ok(Self { eye: camera.eye(), plan, spheres, bounds, on_spu, grid });
         }
-        let mut seen = Self::without_grid(plan, scene, camera.eye());
+        let mut seen = Self::without_grid(m, plan, scene, camera.eye());
         let ball = |(p, s): (&mut Prepared, &Sphere)| {
             let reach = margin::reach(plan.margins, plan.arithmetic, p.f, s.radius);
             p.cull_radius = cull::radius(plan.margins, p.f, reach);
@@ -138,16 +141,27 @@ impl Seen {
 
     /// Prepares spheres alone: every one is met by every ray.
     #[must_use]
-    pub fn without_grid(plan: Plan, scene: &[Sphere], eye: [f32; 3]) -> Self {
+    pub fn without_grid<M: Machine>(m: M, plan: Plan, scene: &[Sphere], eye: [f32; 3]) -> Self {
         let bounds = match plan.arithmetic {
-            Arithmetic::Rounded(_) => Vec::new(),
+            Arithmetic::Rounded(_) | Arithmetic::Spu(_) => Vec::new(),
             Arithmetic::Certified => {
                 let rule = Rule::new(bound::NEAREST);
                 scene.iter().map(|s| bounds(&rule, eye, s)).collect()
             }
         };
+        let mut on_spu = Vec::new();
+        if let Arithmetic::Spu(_) = plan.arithmetic {
+            m.within(
+                #[inline(always)]
+                || {
+                    for sphere in scene {
+                        on_spu.push(Prepared::on(m.spu(), eye, sphere));
+                    }
+                },
+            );
+        }
         let spheres = scene.iter().map(|s| Prepared::new(eye, s)).collect();
-        Self { eye, plan, spheres, bounds, grid: None }
+        Self { eye, plan, spheres, bounds, on_spu, grid: None }
     }
 
     /// t and id of each ray of a block, in the scene that this was made of. If it is known which spheres own its pixels, they alone
@@ -211,6 +225,19 @@ impl Seen {
                 let rounded = Rounded { form, block, bundle, nearest: Nearest::none(m) };
                 let nearest = self.meet_all(m, bundle, rounded, known, &mut worker.counts).nearest;
                 Answers::new(m, nearest.t, nearest.id, scene)
+            }
+            Arithmetic::Spu(form) => {
+                let s = m.spu();
+                let dir = three(
+                    block.dir,
+                    #[inline(always)]
+                    |d| s.lanes(m.to_array(d)),
+                );
+                let (block, nearest) = (&Block::new(s, dir), Nearest::none(s));
+                let on_spu = OnSpu { form, block, bundle, spheres: &self.on_spu, nearest };
+                let nearest = self.meet_all(m, bundle, on_spu, known, &mut worker.counts).nearest;
+                let (t, id) = (s.to_array(nearest.t), s.to_array_i(nearest.id));
+                Answers::new(m, m.lanes(t), m.lanes_i(id), scene)
             }
             Arithmetic::Certified => {
                 let rays = Rays::new(m, bundle.slope);
@@ -349,6 +376,41 @@ impl<M: Machine> Hits<M> for Rounded<'_, M> {
     #[inline(always)]
     fn reached(&self, m: M) -> M::F {
         m.mul(self.nearest.t, self.bundle.speed)
+    }
+}
+
+/// In one of the forms on the SPU.
+struct OnSpu<'a, M: Machine> {
+    form: Form,
+    block: &'a Block<M::Spu>,
+    bundle: &'a Bundle<M>,
+    spheres: &'a [Prepared],
+    nearest: Nearest<M::Spu>,
+}
+
+impl<M: Machine> OnSpu<'_, M> {
+    /// One function for all who meet, and one door: inlined into every way through the grid it would take minutes to compile.
+    #[inline(never)]
+    fn meet_one(&mut self, m: M, id: u32) {
+        m.within(
+            #[inline(always)]
+            || {
+                let sphere = &self.spheres[id as usize];
+                self.nearest = self.nearest.meet(m.spu(), self.form, self.block, sphere, id.cast_signed());
+            },
+        );
+    }
+}
+
+impl<M: Machine> Hits<M> for OnSpu<'_, M> {
+    #[inline(always)]
+    fn meet(&mut self, m: M, _: &Prepared, _: [f32; 3], id: u32) {
+        self.meet_one(m, id);
+    }
+
+    #[inline(always)]
+    fn reached(&self, m: M) -> M::F {
+        m.mul(m.lanes(m.spu().to_array(self.nearest.t)), self.bundle.speed)
     }
 }
 

@@ -42,6 +42,27 @@ impl Prepared {
     }
 }
 
+impl Prepared {
+    /// The same by a machine's own arithmetic.
+    #[inline(always)]
+    #[must_use]
+    pub fn on<M: Machine>(m: M, eye: [f32; 3], sphere: &Sphere) -> Self {
+        let f = three(
+            [0, 1, 2],
+            #[inline(always)]
+            |i| m.sub(m.splat(eye[i]), m.splat(sphere.center[i])),
+        );
+        let rr = m.mul(m.splat(sphere.radius), m.splat(sphere.radius));
+        let q = m.sub(m.dot(f, f), rr);
+        let f = three(
+            f,
+            #[inline(always)]
+            |x| m.to_array(x)[0],
+        );
+        Self { f, rr: m.to_array(rr)[0], q: m.to_array(q)[0], cull_radius: sphere.radius }
+    }
+}
+
 /// The nearest hit of each ray so far.
 #[derive(Clone, Copy)]
 pub struct Nearest<M: Machine> {

@@ -26,6 +26,10 @@ pub enum Rounding {
     TextbookF32,
     /// r² minus the squared distance of the centre from the ray, in f32.
     PerpendicularF32,
+    /// b² − a q in the SPU's single precision.
+    TextbookSpu,
+    /// r² minus the squared distance of the centre from the ray, in the SPU's single precision.
+    PerpendicularSpu,
 }
 
 impl Rounding {
@@ -36,6 +40,8 @@ impl Rounding {
             Self::TextbookF64 => Naively::F64,
             Self::TextbookF32 => Naively::F32Textbook,
             Self::PerpendicularF32 => Naively::F32Perpendicular,
+            Self::TextbookSpu => Naively::SpuTextbook,
+            Self::PerpendicularSpu => Naively::SpuPerpendicular,
         }
     }
 }
@@ -48,6 +54,8 @@ impl Promise {
             Rounding::TextbookF64 => "the textbook form in f64",
             Rounding::TextbookF32 => "the textbook form in f32",
             Rounding::PerpendicularF32 => "the perpendicular form in f32",
+            Rounding::TextbookSpu => "the textbook form on the SPU",
+            Rounding::PerpendicularSpu => "the perpendicular form on the SPU",
         };
         match self {
             Self::Exact => "the truth, bit for bit".into(),
@@ -210,6 +218,8 @@ impl Subject for Grid {
         match self.plan.arithmetic {
             Arithmetic::Rounded(Form::Textbook) => Promise::EqualToNaive(Rounding::TextbookF32),
             Arithmetic::Rounded(Form::Perpendicular) => Promise::EqualToNaive(Rounding::PerpendicularF32),
+            Arithmetic::Spu(Form::Textbook) => Promise::EqualToNaive(Rounding::TextbookSpu),
+            Arithmetic::Spu(Form::Perpendicular) => Promise::EqualToNaive(Rounding::PerpendicularSpu),
             Arithmetic::Certified => Promise::Exact,
         }
     }

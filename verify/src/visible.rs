@@ -135,6 +135,8 @@ impl Packet<'_> {
         let form = match plan.arithmetic {
             Arithmetic::Rounded(Form::Textbook) => Naive::F32Textbook,
             Arithmetic::Rounded(Form::Perpendicular) => Naive::F32Perpendicular,
+            Arithmetic::Spu(Form::Textbook) => Naive::SpuTextbook,
+            Arithmetic::Spu(Form::Perpendicular) => Naive::SpuPerpendicular,
             Arithmetic::Certified => Naive::Exact,
         };
         let alone = Scene::new(vec![*sphere], [0; 3], [0.0; 3]).map_err(|e| e.to_string())?;
@@ -148,7 +150,7 @@ impl Packet<'_> {
             (Voxelizer::ByCenter, _) => {
                 [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &(integer(sphere.center[i]) << 149)))
             }
-            (_, Arithmetic::Rounded(_)) => self.cell(&point),
+            (_, Arithmetic::Rounded(_) | Arithmetic::Spu(_)) => self.cell(&point),
             // The true point lies between those of t's neighbours, and so does its cell.
             (_, Arithmetic::Certified) => {
                 let [before, after] = [hit.t.next_down(), hit.t.next_up()];

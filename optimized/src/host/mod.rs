@@ -4,13 +4,18 @@
 //! check. [`Level::best`] detects once; the environment variable `CGT_LEVEL` names a lower one.
 
 mod scalar;
+mod spu;
+#[cfg(target_arch = "x86_64")]
+mod truncating;
 mod wide;
 
 pub use scalar::Scalar;
+pub use spu::Spu;
+#[cfg(target_arch = "x86_64")]
+pub use truncating::Truncating;
 pub use wide::Wide;
 
 use crate::machine::Machine;
-use fearless_simd::dispatch;
 use std::fmt;
 use thiserror::Error;
 
@@ -113,9 +118,22 @@ impl Level {
 
     /// Does work on this level's machine.
     pub fn run<W: Work>(self, work: W) -> W::Output {
+        use fearless_simd::Level as L;
+        #[allow(unreachable_patterns, reason = "other targets have other levels")]
         match self.0 {
-            None => work.on(Scalar),
-            Some(level) => dispatch!(level, simd => work.on(Wide(simd))),
+            #[cfg(target_arch = "x86_64")]
+            Some(L::Sse2(simd)) => work.on(Wide(simd)),
+            #[cfg(target_arch = "x86_64")]
+            Some(L::Sse4_2(simd)) => work.on(Wide(simd)),
+            #[cfg(target_arch = "x86_64")]
+            Some(L::Avx2(simd)) => work.on(Wide(simd)),
+            #[cfg(target_arch = "x86_64")]
+            Some(L::Avx512(simd)) => work.on(Wide(simd)),
+            #[cfg(target_arch = "aarch64")]
+            Some(L::Neon(simd)) => work.on(Wide(simd)),
+            #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+            Some(L::WasmSimd128(simd)) => work.on(Wide(simd)),
+            _ => work.on(Scalar),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! The plainest machine: sixteen lanes are an array, each operation a loop over it.
 
+use super::Spu;
 use crate::machine::{LANES, Machine, Site};
 use std::array::from_fn;
 
@@ -11,6 +12,12 @@ impl Machine for Scalar {
     type F = [f32; LANES];
     type I = [i32; LANES];
     type B = [bool; LANES];
+    type Spu = Spu;
+
+    #[inline(always)]
+    fn spu(self) -> Spu {
+        Spu
+    }
 
     #[inline(always)]
     fn lanes(self, x: [f32; LANES]) -> Self::F {

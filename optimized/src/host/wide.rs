@@ -21,6 +21,7 @@
 //! inlined ([`three`](crate::machine::three)), which `tests/machine_code.rs` judges. Before that was so, frames took 1.7
 //! times as long at AVX-512 and 2.4 times at AVX2, by their ratios to the naive tracer.
 
+use super::Spu;
 use crate::machine::{LANES, Machine, Site};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x16, i32x16, mask32x16};
@@ -29,10 +30,63 @@ use fearless_simd::{f32x16, i32x16, mask32x16};
 #[derive(Clone, Copy, Debug)]
 pub struct Wide<S: Simd>(pub S);
 
-impl<S: Simd> Machine for Wide<S> {
+/// An instruction set, and who does the SPU's arithmetic in it.
+pub trait Level: Simd {
+    /// The machine.
+    type Spu: Machine + Send + Sync;
+
+    /// The machine, of the token.
+    fn spu(self) -> Self::Spu;
+}
+
+/// Those that cannot round towards zero.
+macro_rules! emulated {
+    ($($(#[$on:meta])* $level:ident),*) => {$(
+        $(#[$on])*
+        impl Level for fearless_simd::$level {
+            type Spu = Spu;
+
+            #[inline(always)]
+            fn spu(self) -> Spu {
+                Spu
+            }
+        }
+    )*};
+}
+
+emulated!(
+    #[cfg(target_arch = "x86_64")]
+    Sse2,
+    #[cfg(target_arch = "x86_64")]
+    Sse4_2,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "aarch64")]
+    Neon,
+    #[cfg(all(target_arch = "wasm32", target_feature = "simd128"))]
+    WasmSimd128
+);
+
+#[cfg(target_arch = "x86_64")]
+impl Level for fearless_simd::Avx512 {
+    type Spu = super::Truncating;
+
+    #[inline(always)]
+    fn spu(self) -> super::Truncating {
+        super::Truncating(self)
+    }
+}
+
+impl<S: Level> Machine for Wide<S> {
     type F = f32x16<S>;
     type I = i32x16<S>;
     type B = mask32x16<S>;
+    type Spu = S::Spu;
+
+    #[inline(always)]
+    fn spu(self) -> S::Spu {
+        self.0.spu()
+    }
 
     #[inline(always)]
     fn within<R>(self, work: impl FnOnce() -> R) -> R {

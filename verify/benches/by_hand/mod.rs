@@ -42,6 +42,12 @@ impl Machine for Avx512 {
     type F = __m512;
     type I = __m512i;
     type B = __mmask16;
+    type Spu = optimized::host::Spu;
+
+    #[inline(always)]
+    fn spu(self) -> Self::Spu {
+        optimized::host::Spu
+    }
 
     #[inline(always)]
     fn within<R>(self, work: impl FnOnce() -> R) -> R {

@@ -44,6 +44,8 @@ impl Oath {
             Rounding::TextbookF64 => |ray, sphere| band(Rounding::TextbookF64, ray, sphere),
             Rounding::TextbookF32 => |ray, sphere| band(Rounding::TextbookF32, ray, sphere),
             Rounding::PerpendicularF32 => |ray, sphere| band(Rounding::PerpendicularF32, ray, sphere),
+            Rounding::TextbookSpu => |ray, sphere| band(Rounding::TextbookSpu, ray, sphere),
+            Rounding::PerpendicularSpu => |ray, sphere| band(Rounding::PerpendicularSpu, ray, sphere),
         })
     }
 }

@@ -18,6 +18,9 @@
 //!   if the ray hits the smaller one of radius r − e, e = u (max|cᵢ| + r) + u (F + r). Rays are asked
 //!   from t = 2⁻¹²⁶ on, the least that is not flushed to zero.
 //!
+//! - *On the SPU* (contract, rule 6) every operation is off by less than 8u of its result, since a division is by less than 4u, a root
+//!   by less than 6u and any other by less than 2u: both forms with 8u in place of u.
+//!
 //! Terms of second order and v are covered by 2 % on top. A t that fits f32 is then rounded once more.
 //! Nothing is stated where f32 could over- or underflow on the way.
 
@@ -42,6 +45,11 @@ pub fn band(rounding: Rounding, ray: &Ray, sphere: &Sphere) -> Option<Band> {
         Rounding::TextbookF64 => Some(geometry.textbook(V)),
         Rounding::TextbookF32 => geometry.in_range(GRADUAL).then(|| geometry.textbook(U)),
         Rounding::PerpendicularF32 => geometry.in_range(GRADUAL).then(|| geometry.perpendicular(&NAIVE)),
+        Rounding::TextbookSpu => geometry.in_range(FLUSHED).then(|| geometry.textbook(ON_SPU)),
+        Rounding::PerpendicularSpu => {
+            let form = Perpendicular { unit: ON_SPU, ..NAIVE };
+            geometry.in_range(FLUSHED).then(|| geometry.perpendicular(&form))
+        }
     }
 }
 
@@ -52,21 +60,23 @@ pub fn embree_band(ray: &Ray, sphere: &Sphere) -> Option<Band> {
 }
 
 const U: f64 = 1.0 / (1u64 << 24) as f64;
+const ON_SPU: f64 = 8.0 * U;
 const V: f64 = 1.0 / (1u64 << 53) as f64;
 
 /// 2⁴⁰ times the least f32, and 2⁴⁰ times the least that is not flushed to zero.
 const GRADUAL: f64 = f64::from_bits((1023 - 109) << 52);
 const FLUSHED: f64 = f64::from_bits((1023 - 86) << 52);
 
-/// What tells the perpendicular forms apart, in u: the errors of h and √(D w), and the second-order term of |l|².
+/// What tells the perpendicular forms apart: u, and in u the errors of h and √(D w), and the second-order term of |l|².
 struct Perpendicular {
+    unit: f64,
     h: f64,
     root: f64,
     second: f64,
 }
 
-const NAIVE: Perpendicular = Perpendicular { h: 10.0, root: 4.0, second: 170.0 };
-const EMBREE: Perpendicular = Perpendicular { h: 13.0, root: 6.0, second: 256.0 };
+const NAIVE: Perpendicular = Perpendicular { unit: U, h: 10.0, root: 4.0, second: 170.0 };
+const EMBREE: Perpendicular = Perpendicular { unit: U, h: 13.0, root: 6.0, second: 256.0 };
 
 /// What comes before and after the formula itself: what a search may lose of D before the formula is asked, and the
 /// least t that counts, below which none is given either if that is not 0.
@@ -160,12 +170,13 @@ impl Geometry {
     fn perpendicular_found(&self, form: &Perpendicular, search: Search) -> Band {
         let (far, n) = (self.ff.sqrt(), self.a.sqrt());
         let ll = (self.ff - self.b * self.b / self.a).max(0.0);
-        let error = U * (6.0 * ll.sqrt() * far + 4.0 * ll + 2.0 * self.rr) + form.second * U * U * self.ff;
+        let u = form.unit;
+        let error = u * (6.0 * ll.sqrt() * far + 4.0 * ll + 2.0 * self.rr) + form.second * u * u * self.ff;
         let error = 1.02 * error + 10.0 * V * self.ff;
         let roots = |error: f64| {
-            let h = Span::about(-self.b / self.a, 1.02 * form.h * U * far / n);
-            let s = Span::root((self.rr - ll) / self.a, error / self.a).widen(1.02 * form.root * U);
-            let t = |sum: Span| sum.widen(1.02 * U);
+            let h = Span::about(-self.b / self.a, 1.02 * form.h * u * far / n);
+            let s = Span::root((self.rr - ll) / self.a, error / self.a).widen(1.02 * form.root * u);
+            let t = |sum: Span| sum.widen(1.02 * u);
             [t(h.minus(s)), t(h.plus(s))]
         };
         banded(self.rr - ll, error, search, roots)

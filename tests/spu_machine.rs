@@ -1,0 +1,165 @@
+//! Does the optimized SPU arithmetic, by way of f64 and in AVX-512, do to the bit what the reference does with integers?
+//!
+//! One operand is exhausted: all 2³² patterns with `CGT_SPU_STEP=1`, every 509th in the everyday run. Pairs, as many as
+//! `CGT_SPU_PAIRS` says, are directed at what differs from IEEE 754: zeros of both signs, subnormal patterns, powers of two with their neighbours,
+//! the last exponents, and sums that nearly cancel. Each machine is told apart from IEEE 754 by how often it differs.
+
+use optimized::Level;
+use optimized::host::{Scalar, Spu, Work};
+use optimized::machine::{LANES, Machine};
+use rand::{Rng, RngExt};
+use rayon::prelude::*;
+use reference::spu::Spu as Naive;
+use std::sync::atomic::{AtomicU64, Ordering};
+use verify::seed::{count, generator, seed};
+
+/// Patterns in sixteen lanes.
+type Lanes = [u32; LANES];
+
+fn floats(x: Lanes) -> [f32; LANES] {
+    x.map(f32::from_bits)
+}
+
+/// What the operations of a machine make of two patterns a lane: numbers, then yes or no, then integers.
+struct Outcome {
+    numbers: Vec<(&'static str, Lanes)>,
+    answers: Vec<(&'static str, u32)>,
+    integers: Vec<(&'static str, [i32; LANES])>,
+}
+
+fn outcome<M: Machine>(m: M, x: Lanes, y: Lanes) -> Outcome {
+    m.within(
+        #[inline(always)]
+        || {
+            let bits = |out: M::F| m.to_array(out).map(f32::to_bits);
+            let (x, y) = (m.lanes(floats(x)), m.lanes(floats(y)));
+            Outcome {
+                numbers: vec![
+                    ("add", bits(m.add(x, y))),
+                    ("sub", bits(m.sub(x, y))),
+                    ("mul", bits(m.mul(x, y))),
+                    ("div", bits(m.div(x, y))),
+                    ("sqrt", bits(m.sqrt(x))),
+                    ("neg", bits(m.neg(x))),
+                    ("select", bits(m.select(m.lt(x, y), x, y))),
+                ],
+                answers: vec![("lt", m.to_bits(m.lt(x, y))), ("le", m.to_bits(m.le(x, y)))],
+                integers: vec![
+                    ("floor", m.to_array_i(m.floor(x))),
+                    ("truncate", m.to_array_i(m.truncate(x))),
+                ],
+            }
+        },
+    )
+}
+
+/// The SPU's machine beside that of a level.
+struct OnLevel(Lanes, Lanes);
+
+impl Work for OnLevel {
+    type Output = Outcome;
+
+    fn on<M: Machine + Send + Sync>(self, m: M) -> Outcome {
+        m.within(
+            #[inline(always)]
+            || outcome(m.spu(), self.0, self.1),
+        )
+    }
+}
+
+/// What the reference makes of one lane, in the order of [`Outcome::numbers`].
+fn by_integers(x: u32, y: u32) -> [u32; 7] {
+    let (p, q) = (Naive(x), Naive(y));
+    let less = if p.less(q) { x } else { y };
+    [(p + q).0, (p - q).0, (p * q).0, (p / q).0, p.sqrt().0, (-p).0, less]
+}
+
+/// Holds all machines of this processor against the reference; gives how often a number was not what IEEE 754 makes.
+fn judge(x: Lanes, y: Lanes) -> u64 {
+    let by_f64 = outcome(Spu, x, y);
+    let say = |what: &str, i: usize| format!("{what} of {:#010x} and {:#010x}", x[i], y[i]);
+    for i in 0..LANES {
+        let wanted = by_integers(x[i], y[i]);
+        for ((what, out), wanted) in by_f64.numbers.iter().zip(wanted) {
+            assert_eq!(format!("{:#010x}", out[i]), format!("{wanted:#010x}"), "{}", say(what, i));
+        }
+        let (p, q) = (Naive(x[i]), Naive(y[i]));
+        for ((what, out), wanted) in by_f64.answers.iter().zip([p.less(q), p.less_equal(q)]) {
+            assert_eq!(out >> i & 1 != 0, wanted, "{}", say(what, i));
+        }
+    }
+    for level in Level::available() {
+        let wide = level.run(OnLevel(x, y));
+        for ((what, out), (_, wanted)) in wide.numbers.iter().zip(&by_f64.numbers) {
+            for i in 0..LANES {
+                let (out, wanted) = (format!("{:#010x}", out[i]), format!("{:#010x}", wanted[i]));
+                assert_eq!(out, wanted, "{level}: {}", say(what, i));
+            }
+        }
+        assert_eq!(wide.answers, by_f64.answers, "{level}: {x:x?}, {y:x?}");
+        assert_eq!(wide.integers, by_f64.integers, "{level}: {x:x?}, {y:x?}");
+    }
+    let ieee = outcome(Scalar, x, y);
+    let differs =
+        |(out, ieee): (&(&str, Lanes), &(&str, Lanes))| (0..LANES).filter(|&i| out.1[i] != ieee.1[i]).count();
+    by_f64.numbers.iter().zip(&ieee.numbers).map(differs).sum::<usize>() as u64
+}
+
+/// A pattern near one at which something changes, or any.
+fn pattern(rng: &mut impl Rng) -> u32 {
+    let sign = rng.random::<u32>() & 1 << 31;
+    let exponent = [0u32, 1, 2, 3, 64, 126, 127, 128, 150, 189, 190, 251, 252, 253, 254, 255];
+    let exponent = if rng.random() { exponent[rng.random_range(0..16)] } else { rng.random_range(0..256) };
+    let fraction = match rng.random_range(0..4) {
+        0 => [0, 1, 2, 0x3f_ffff, 0x40_0000, 0x7f_fffe, 0x7f_ffff][rng.random_range(0..7)],
+        1 => 1 << rng.random_range(0..23),
+        _ => rng.random_range(0..1 << 23),
+    };
+    sign | exponent << 23 | fraction
+}
+
+/// A partner: any, or one with which sums nearly cancel.
+fn partner(x: u32, rng: &mut impl Rng) -> u32 {
+    if rng.random() {
+        pattern(rng)
+    } else {
+        (x ^ 1 << 31).wrapping_add(rng.random_range(0..5)).wrapping_sub(2)
+    }
+}
+
+#[test]
+fn pairs_are_those_of_the_reference() {
+    let seed = seed();
+    let (blocks, other) = (count("CGT_SPU_PAIRS", 1_000_000) / LANES as u64, AtomicU64::new(0));
+    (0..blocks).into_par_iter().for_each(|k| {
+        let mut rng = generator(seed, k);
+        let x: Lanes = std::array::from_fn(|_| pattern(&mut rng));
+        let y = x.map(|x| partner(x, &mut rng));
+        other.fetch_add(judge(x, y), Ordering::Relaxed);
+    });
+    let (pairs, other) = (blocks * LANES as u64, other.into_inner());
+    println!("{pairs} pairs, seed {seed}; {other} numbers are not those of IEEE 754");
+    assert!(other > pairs / 2, "only {other} of {pairs} pairs show that this is not IEEE 754");
+}
+
+/// All patterns, each as first operand of every operation with a partner of its own, or every so manieth.
+#[test]
+fn one_operand_is_exhausted() {
+    let seed = seed();
+    let step = count("CGT_SPU_STEP", 509);
+    let judged = AtomicU64::new(0);
+    (0..1u64 << 16).into_par_iter().for_each(|upper| {
+        let mut rng = generator(seed, upper);
+        let mut lower = (upper % step) as u32;
+        while u64::from(lower) < 1 << 16 {
+            let at = |lane: usize| (upper as u32) << 16 | (lower + lane as u32 * step as u32) & 0xffff;
+            let x: Lanes = std::array::from_fn(at);
+            judge(x, x.map(|x| partner(x, &mut rng)));
+            judged.fetch_add(LANES as u64, Ordering::Relaxed);
+            lower += LANES as u32 * step as u32;
+        }
+    });
+    let judged = judged.into_inner();
+    println!("{judged} of 2^32 patterns, seed {seed}");
+    assert!(step > 1 || judged == 1 << 32, "{judged} of 2^32 patterns");
+}
