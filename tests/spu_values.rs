@@ -1,5 +1,6 @@
-//! Does the reference compute as the contract says that an SPU does (rule 6)? Against results worked out by hand, against big integers in
-//! which each operation is exact and cut off by a search, and against the true quotients and roots, over whole ranges of fractions.
+//! Does the reference compute as the contract says that an SPU does (rule 6)? Against results worked out by hand,
+//! against big integers in which each operation is exact and cut off by a search, and against the true quotients and
+//! roots, over whole ranges of fractions.
 
 use contract::spu::{FREST, FRSQEST};
 use contract::{DEFAULT_LIGHT, Scene, Sphere};
@@ -298,7 +299,8 @@ fn operand(rng: &mut impl Rng) -> u32 {
     (u32::from(rng.random::<bool>()) << 31) | (exponent << 23) | fraction
 }
 
-/// Three operands, the third of which may nearly be the product of the others, or the second nearly the first, of either sign.
+/// Three operands, the third of which may nearly be the product of the others, or the second nearly the first, of
+/// either sign.
 fn operands(rng: &mut impl Rng) -> [u32; 3] {
     let [x, y, z] = [0; 3].map(|_| operand(rng));
     let mut close = |to: u32| to.wrapping_add(rng.random_range(0..7)).wrapping_sub(3) ^ (z & MINUS_ZERO);
@@ -366,12 +368,12 @@ fn interpolation_stays_above_one_for_all_entries() {
     assert_eq!(lowest, (1 << 32) + 131);
 }
 
-/// w x against 1, and w² x against 1, for every fraction, of every parity of the exponent; and the other exponents are the same.
+/// w x against 1, and w² x against 1, for every fraction, of either parity of the exponent.
 #[test]
 fn estimates_are_as_near_as_their_tables_allow() {
     let reciprocal = |x: Spu| x.fi(x.frest());
     let root = |x: Spu| x.fi(x.frsqest());
-    // Both in parts of 2^-47 and, w² x, in parts of 2^-71, which about doubles the error of w.
+    // w x in units of 2^-47, w² x in units of 2^-71; the latter errs twice as much as w.
     let errors = (0..1u32 << 23).into_par_iter().map(|fraction| {
         let x = from_one(fraction);
         let w = reciprocal(x);
@@ -397,7 +399,7 @@ fn estimates_are_as_near_as_their_tables_allow() {
     assert!((-12.52..-12.51).contains(&found[2]));
 }
 
-/// The bits of estimates do not depend on the exponent, and theirs is its negative, or half of that, as far as there is one.
+/// The other exponents are the same: the estimate's is the negative of x's, or half of that, as far as there is one.
 #[test]
 fn estimates_scale_with_the_exponent() {
     let seed = seed();
@@ -457,13 +459,14 @@ fn true_quotient(x: Spu, y: Spu) -> u32 {
     ((x.0 >> 23) + 127 - (y.0 >> 23) - below_one << 23) + (quotient - LEAST)
 }
 
-/// From this exponent on no remainder x − g² or x − qy underflows: being whole multiples of 2^-47 of x's power of two, they are 2^-126 at least.
+/// From this exponent on no remainder x − g² or x − qy underflows: being whole multiples of 2^-47 of x's power of two,
+/// they are 2^-126 at least or zero.
 const NOTHING_UNDERFLOWS: u32 = 48;
 /// What the estimates are worth without the step that remainders are for: 2^24 × 2^-12.2.
 const BARE: i64 = 3566;
 
-/// All fractions of two exponents are all there is, as long as nothing underflows: the others are the same. Below that exponent the
-/// step of Newton's fades, until the estimate stands alone.
+/// All fractions of two exponents are all there is, as long as nothing underflows: the others are the same. Below that
+/// exponent the step of Newton's fades, until the estimate stands alone.
 #[test]
 fn roots_are_cut_off_or_one_below() {
     let of = |x: u32| steps(Spu(x).sqrt(), true_root(Spu(x)));
@@ -573,6 +576,7 @@ fn t_ends_with_two_to_the_128th() {
     let along = [0.0, 0.0, f32::from_bits(TINY)];
     let two64 = f32::from_bits((127 + 64) << 23);
     // The far side at 2^65, to some units: 0.6 and 1.4 times 2^64 add up to that. The other form needs a centre there.
+    // The direction being 2^-63, t is 2^128.
     let inside = |k: u32| ball([0.0, 0.0, 0.6 * two64], f32::from_bits((1.4 * two64).to_bits() - 40 + k));
     let outside = |k: u32| ball([0.0, 0.0, f32::from_bits((2.0 * two64).to_bits() - 40 + k)], 4e13);
     let t_of = |form, ball| hit(form, along, &[ball]).map(|(_, t)| t);

@@ -1,13 +1,14 @@
 //! The single precision of the Cell's SPU (contract, rule 6), by integers alone.
 //!
-//! In and out are patterns of 32 bits: a sign, an exponent e of 8 bits and a fraction f of 23. Such a pattern is zero if e = 0, and
-//! else ±1.f 2^(e − 127) for every other e, 255 included. No operation fails, none gives anything but a number, and each
-//! is the real result of its operands, cut off towards zero once.
+//! In and out are patterns of 32 bits: a sign, an exponent e of 8 bits and a fraction f of 23. Such a pattern is zero
+//! if e = 0, and ±1.f 2^(e − 127) for every other e, 255 included. No operation fails and none gives anything but a
+//! number: sums and products, fused or not, are the real result of their operands, cut off towards zero once; quotients
+//! and roots are chains of these behind an estimate. Units do not come into it.
 //!
-//! The simple program: a number is an integer times a power of two ([`Real`]); products and sums of such numbers are such
-//! numbers again, and [`Real::cut_off`] makes the result a pattern. The one departure from it is a sum of numbers so far apart
-//! that no integer of 128 bits holds it: there the smaller one cannot be told from any other of its sign,
-//! and [`Real::plus`] says why.
+//! The simple program: a number is an integer times a power of two (`Real`); products and sums of such numbers are
+//! such numbers again, and `Real::cut_off` makes a pattern of the result. The one departure from it is a sum of numbers
+//! so far apart that no integer of 128 bits holds it: there the smaller one cannot be told from any other of its sign,
+//! and `Real::plus` says why.
 //!
 //! ```
 //! use reference::spu::Spu;
@@ -89,7 +90,8 @@ impl Spu {
         self.rank() <= y.rank()
     }
 
-    /// The estimate of 1/x for [`fi`](Self::fi): a base of 13 bits and a step of 10 in place of the fraction.
+    /// The estimate of 1/x for [`fi`](Self::fi), a base of 13 bits and a step of 10 in place of the fraction: good for
+    /// a relative error of 2⁻¹²·² after it. Zero from x = 2¹²⁶ on, the largest number of zero.
     #[must_use]
     pub fn frest(self) -> Self {
         if self.is_zero() {
@@ -99,7 +101,8 @@ impl Spu {
         Self((self.0 & SIGN) | (253u32.saturating_sub(self.biased()) << 23) | entry)
     }
 
-    /// The estimate of 1/√|x| for [`fi`](Self::fi), in the form of [`frest`](Self::frest)'s.
+    /// The estimate of 1/√|x| for [`fi`](Self::fi), in the form of [`frest`](Self::frest)'s: good for a relative error
+    /// of 2⁻¹²·⁵ after it. The largest number of zero.
     #[must_use]
     pub fn frsqest(self) -> Self {
         if self.is_zero() {
@@ -110,10 +113,10 @@ impl Spu {
         Self(((190 - self.biased().div_ceil(2)) << 23) | entry)
     }
 
-    /// The estimate that goes on from `estimate` along its line, to about 12 bits; `self` is the x that was estimated for.
+    /// The number on the line that `estimate` gives, at the place of x in its interval; `self` is the x it was made of.
     ///
-    /// From the estimates of [`frest`](Self::frest) and [`frsqest`](Self::frsqest) the line never falls below 1. From other
-    /// patterns it can, and a fraction below 1 the contract does not speak of: here the bits below the leading one stay as they are.
+    /// From [`frest`](Self::frest) and [`frsqest`](Self::frsqest) the line never falls below 1. From other patterns it
+    /// can, and of a fraction below 1 the contract does not speak: here its 23 bits stay as they are.
     #[must_use]
     pub fn fi(self, estimate: Self) -> Self {
         let base = u64::from(estimate.fraction() >> 10);
@@ -125,8 +128,9 @@ impl Spu {
         Self((estimate.0 & !FRACTION) | fraction)
     }
 
-    /// About √x, by an estimate and one step of Newton's: no more than two units in the last place from the root cut off, where nothing underflows
-    /// on the way. Of x < 0 it is a number without a meaning.
+    /// About √x, by an estimate and one step of Newton's: the root cut off or one unit in the last place below, from
+    /// x = 2⁻⁷⁹ on. Further down the remainder x − g² underflows, and in the end only the estimate's 12 bits are
+    /// right. Of x < 0 it is a number without a meaning.
     #[must_use]
     pub fn sqrt(self) -> Self {
         let w = self.fi(self.frsqest());
@@ -185,7 +189,9 @@ impl Mul for Spu {
     }
 }
 
-/// About x / y, by an estimate and one step of Newton's.
+/// About x / y, by an estimate and one step of Newton's: the quotient cut off or one unit in the last place below, from
+/// |x| = 2⁻⁷⁹ on and as long as nothing else underflows. Further down only the estimate's 12 bits are right in the end;
+/// from |y| = 2¹²⁶ on it is zero; of y = 0 about 2¹³⁰ x, or the largest number.
 impl Div for Spu {
     type Output = Self;
 
@@ -196,7 +202,7 @@ impl Div for Spu {
     }
 }
 
-/// The other sign bit, of zeros too.
+/// The same with the other sign bit, zeros too.
 impl Neg for Spu {
     type Output = Self;
 
@@ -213,10 +219,11 @@ impl Real {
 
     /// Exact up to a distance of 64 between the exponents; beyond that, some number that is cut off to the same pattern.
     ///
-    /// Numbers are zero or of 24 to 48 bits. So at a distance of more than 64 the lower number is less than 2⁴⁸ of its units and hence
-    /// less than 2⁻¹⁶ of a unit of the higher one. The last bit kept of a sum is worth one unit of the higher number at least, or half of one
-    /// where a power of two has been taken from. So between two neighbours that are kept, everything the lower number can
-    /// be has the same place: just above the higher number, or just below. 2⁻⁶⁴ of its units is there too.
+    /// Numbers are zero or of 24 to 48 bits. So at a distance of more than 64 the lower number, of less than 2⁴⁸ of its
+    /// own units, is less than 2⁻¹⁶ of the higher one's. The last bit kept of the sum is worth one unit of the higher
+    /// number at least, or half of one where something has been taken from a power of two. So whatever the lower number
+    /// is, the sum lies between the same two neighbours that are kept, just above the higher number or just
+    /// below; and so it does with 2⁻⁶⁴ units in place of the lower number.
     fn plus(self, other: Self) -> Self {
         if self.units == 0 {
             return other;
