@@ -71,7 +71,7 @@ type Ternary = (&'static str, fn(Spu, Spu, Spu) -> Spu, [u32; 3], u32);
 
 #[test]
 fn results_worked_out_by_hand() {
-    let unary: [Unary; 22] = [
+    let unary: [Unary; 24] = [
         ("neg", |x| -x, 0, MINUS_ZERO),
         ("neg", |x| -x, minus(SUBNORMAL), SUBNORMAL),
         ("neg", |x| -x, LARGEST, 0xffff_ffff),
@@ -97,10 +97,13 @@ fn results_worked_out_by_hand() {
         ("sqrt", Spu::sqrt, ONE, BELOW_ONE),
         // Entry 31 goes down to 1 + 262 2^-32, cut off to w = 1; then g = x, and x + x (1 - x) / 2 = 1 - 2^-24 - 2^-47.
         ("sqrt", Spu::sqrt, 0x3f7f_fffe, 0x3f7f_fffe),
+        // In exact fractions: were the step cut off before it is added, the result would be the next number.
+        ("sqrt", Spu::sqrt, 0x3f9d_2f39, 0x3f8d_d7f6),
+        ("sqrt", Spu::sqrt, 0x4015_be58, 0x3fc3_caa4),
         ("sqrt", Spu::sqrt, 0, 0),
         ("sqrt", Spu::sqrt, minus(SUBNORMAL), 0),
     ];
-    let binary: [Binary; 41] = [
+    let binary: [Binary; 43] = [
         ("add", |x, y| x + y, [ONE, ONE], TWO),
         // 1 + 2^-23 + (1 - 2^-24) = 2 + 2^-24, cut off.
         ("add", |x, y| x + y, [ONE + 1, BELOW_ONE], TWO),
@@ -147,6 +150,9 @@ fn results_worked_out_by_hand() {
         // w = 1 - 2^-13 = q; q + 2^-13 w = 1 - 2^-26. Even 1 / 1 is not 1.
         ("div", |x, y| x / y, [ONE, ONE], BELOW_ONE),
         ("div", |x, y| x / y, [minus(ONE), TWO], minus(BELOW_ONE - 0x0080_0000)),
+        // In exact fractions, as for sqrt.
+        ("div", |x, y| x / y, [0x3f9b_e869, 0x3fbd_9e88], 0x3f52_7cb2),
+        ("div", |x, y| x / y, [minus(0x3fcd_1ad7), 0x3fe3_876b], minus(0x3f66_c517)),
         // w is zero from 2^126 on.
         ("div", |x, y| x / y, [LARGEST, 0x7e80_0000], 0),
         ("div", |x, y| x / y, [minus(ONE), MINUS_ZERO], LARGEST),
@@ -456,7 +462,7 @@ fn true_quotient(x: Spu, y: Spu) -> u32 {
     let (m, n) = (significand(x), significand(y));
     let below_one = u32::from(m < n);
     let quotient = u32::try_from((m << (23 + below_one)) / n).expect("24 bits");
-    ((x.0 >> 23) + 127 - (y.0 >> 23) - below_one << 23) + (quotient - LEAST)
+    (((x.0 >> 23) + 127 - (y.0 >> 23) - below_one) << 23) + (quotient - LEAST)
 }
 
 /// From this exponent on no remainder x − g² or x − qy underflows: being whole multiples of 2^-47 of x's power of two,
@@ -536,11 +542,15 @@ fn ball(center: [f32; 3], radius: f32) -> Sphere {
     Sphere { center, radius, color: [9; 3] }
 }
 
-/// The nearest hit of a ray from the origin: id and pattern of t.
-fn hit(form: Arithmetic, dir: [f32; 3], spheres: &[Sphere]) -> Option<(u32, u32)> {
+/// The nearest hit of a ray: id and pattern of t.
+fn hit_of(form: Arithmetic, ray: Ray, spheres: &[Sphere]) -> Option<(u32, u32)> {
     let scene = Scene::new(spheres.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
-    let hit = Tracer::new(form).trace(&Ray { eye: [0.0; 3], dir }, &scene);
-    hit.map(|hit| (hit.id, hit.t.to_bits()))
+    Tracer::new(form).trace(&ray, &scene).map(|hit| (hit.id, hit.t.to_bits()))
+}
+
+/// That of a ray from the origin.
+fn hit(form: Arithmetic, dir: [f32; 3], spheres: &[Sphere]) -> Option<(u32, u32)> {
+    hit_of(form, Ray { eye: [0.0; 3], dir }, spheres)
 }
 
 #[test]
@@ -568,6 +578,22 @@ fn hits_worked_out_by_hand() {
     let root = Spu(LARGEST).sqrt().0;
     assert_eq!(both([0.0, 0.0, 1e-30], &[unit(0.0)]), [None, Some((0, root))]);
     assert!(steps(Spu(root), true_root(Spu(LARGEST))).abs() <= 1);
+}
+
+/// Rays askew, whose t were worked out in exact fractions, apart from all programs here. t is another where a sum of
+/// products is fused or added up from its other end, or where b² − a q or f − h d is fused.
+#[test]
+fn operations_of_the_forms_stand_in_the_order_of_the_contract() {
+    let cases = [
+        ([-2.3, -1.5, 0.9], [0.3, 1.2, 1.6], [-0.3, 3.4, 10.5], 2.2, [0x4098_e317, 0x4098_e31c]),
+        ([0.1, -0.7, -1.3], [-0.4, 0.8, 1.3], [-1.8, 2.6, 5.0], 1.4, [0x4074_bff7, 0x4074_bfed]),
+        ([0.2, -2.4, 0.5], [-0.2, -0.7, 1.3], [-2.0, -5.8, 6.7], 2.9, [0x4048_e4d0, 0x4048_e4ce]),
+        ([0.1, 2.1, 1.2], [-0.5, 0.1, -0.4], [-4.4, 2.0, 0.0], 2.2, [0x40a4_53bd, 0x40a4_53c3]),
+    ];
+    for (eye, dir, center, radius, t) in cases {
+        let is = FORMS.map(|form| hit_of(form, Ray { eye, dir }, &[ball(center, radius)]));
+        assert_eq!(is, t.map(|t| Some((0, t))), "{eye:?} + t {dir:?}, {center:?}, {radius}");
+    }
 }
 
 /// t up to the pattern of +∞ is a hit, t above is none.

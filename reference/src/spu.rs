@@ -124,8 +124,9 @@ impl Spu {
         let along = u64::from(self.0 & 0x0007_ffff);
         // In units of 2^-32; cut off to units of 2^-23.
         let line = ((1 << 32) + (base << 19) - step * along) >> 9;
-        let fraction = u32::try_from(line).expect("below 2 in units of 2^-23") & FRACTION;
-        Self((estimate.0 & !FRACTION) | fraction)
+        #[allow(clippy::cast_possible_truncation, reason = "the fraction's 23 bits are wanted")]
+        let line = line as u32;
+        Self((estimate.0 & !FRACTION) | (line & FRACTION))
     }
 
     /// About √x, by an estimate and one step of Newton's: the root cut off or one unit in the last place below, from
@@ -195,6 +196,7 @@ impl Mul for Spu {
 impl Div for Spu {
     type Output = Self;
 
+    #[allow(clippy::suspicious_arithmetic_impl, reason = "the SPU has no division, only products")]
     fn div(self, y: Self) -> Self {
         let w = y.fi(y.frest());
         let q = self * w;
