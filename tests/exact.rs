@@ -74,9 +74,14 @@ fn threads_change_nothing() {
     let size = Some(Size::new(67, 45).expect("small"));
     let camera = Framing { size, ..Framing::default() }.camera(&loaded.animation).expect("in view");
     let scene = &loaded.animation.frames()[0];
-    for arithmetic in
-        [Arithmetic::Exact, Arithmetic::F64, Arithmetic::F32Textbook, Arithmetic::F32Perpendicular]
-    {
+    for arithmetic in [
+        Arithmetic::Exact,
+        Arithmetic::F64,
+        Arithmetic::F32Textbook,
+        Arithmetic::F32Perpendicular,
+        Arithmetic::SpuTextbook,
+        Arithmetic::SpuPerpendicular,
+    ] {
         let render =
             |threads| Tracer::new(arithmetic).threads(threads).render(scene, &camera).expect("small");
         let one = render(1);

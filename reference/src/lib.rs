@@ -8,7 +8,7 @@
 //! The simple program is [`Arithmetic::ExactUnfiltered`]: big integers for every decision. The one departure
 //! from it is the filter of [`Arithmetic::Exact`], f64 intervals that decide most cases first and hand over
 //! whatever they cannot decide. It makes the truth far cheaper and is tested against the simple
-//! program. The other arithmetics are the usual roundings of the textbook.
+//! program. The other arithmetics are the usual roundings of the textbook, and the truncation of the Cell's [`spu`].
 //!
 //! Rows are traced in parallel; no row knows another, so the picture does not depend on threads.
 //!
@@ -34,6 +34,8 @@ mod render;
 mod root;
 mod shade;
 mod single;
+pub mod spu;
+mod spu_forms;
 
 pub use ray::Ray;
 pub use render::{Arithmetic, RenderError, Rendering, Tracer};

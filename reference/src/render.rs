@@ -1,6 +1,6 @@
 //! A picture: every pixel's ray, traced alone. Rows go to the threads as these become free.
 
-use crate::{Hit, Ray, Undecided, double, exact, shade, single};
+use crate::{Hit, Ray, Undecided, double, exact, shade, single, spu_forms};
 use contract::{Camera, Image, Scene, SizeError};
 use rayon::prelude::*;
 use thiserror::Error;
@@ -18,6 +18,10 @@ pub enum Arithmetic {
     F32Textbook,
     /// r² minus the squared distance of the centre from the ray, in f32.
     F32Perpendicular,
+    /// b² − a q in the single precision of the Cell's SPU.
+    SpuTextbook,
+    /// r² minus the squared distance of the centre from the ray, in that precision.
+    SpuPerpendicular,
 }
 
 /// A naive tracer with its arithmetic and number of threads chosen.
@@ -120,6 +124,8 @@ impl Tracer {
             Arithmetic::F64 => double::nearest(ray, spheres),
             Arithmetic::F32Textbook => single::nearest(ray, spheres, single::textbook),
             Arithmetic::F32Perpendicular => single::nearest(ray, spheres, single::perpendicular),
+            Arithmetic::SpuTextbook => spu_forms::nearest(ray, spheres, spu_forms::textbook),
+            Arithmetic::SpuPerpendicular => spu_forms::nearest(ray, spheres, spu_forms::perpendicular),
         }
     }
 
