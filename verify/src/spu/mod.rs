@@ -1,0 +1,17 @@
+//! The SPU model: what the tracer's own kernels cost on a PlayStation 3's processor, and whether a scene fits into it.
+//!
+//! In: a scene, a camera, a plan. Out: cycles by stage as a bracket, mispredicts by site and policy of hinting, what culling and a
+//! mailbox save, a map of the local store. Refused: scenes that do not fit, with the map.
+//!
+//! The modules in the order in which a run goes through them: the instructions ([`isa`]), what each operation is in instructions
+//! ([`sequence`]), the two clocks ([`pipeline`]), branches ([`predict`]), where all is booked ([`recorder`]), and the
+//! [`Machine`](optimized::machine::Machine) that books ([`machine`]).
+
+pub mod isa;
+pub mod machine;
+pub mod pipeline;
+pub mod predict;
+pub mod recorder;
+pub mod sequence;
+
+pub use machine::Spu;
