@@ -3,21 +3,29 @@
 //! Cycle counts of short sequences are written out instruction by instruction; mispredicts of nested loops are held against their
 //! closed form; random kernels must keep the two bounds in order.
 
+use contract::{Camera, MISS, Scene, Size};
 use optimized::frustum::Slices;
 use optimized::grid::MAX_CELLS;
 use optimized::host::Scalar;
-use optimized::machine::{LANES, Machine, Site};
-use optimized::plan::Loop;
+use optimized::machine::{LANES, Machine, Site, Stage};
+use optimized::plan::{Culling, Loop};
 use optimized::walk::{Cursor, Rectangle, Visitor, step, walk};
+use optimized::{Level, Plan, Tracer};
 use rand::{Rng, RngExt};
+use verify::scenes::catalogue::Source;
+use verify::scenes::frame::Framing;
 use verify::seed::{count, generator, seed};
 use verify::spu::Spu;
+use verify::spu::cost::frame_cost;
+use verify::spu::dma::{Transfer, TransferError};
 use verify::spu::isa::{Class, Op, Pipe};
 use verify::spu::machine::Lanes;
+use verify::spu::model::{Measured, measure_nearest};
 use verify::spu::pipeline::Pipeline;
 use verify::spu::predict::{Policy, SITES};
-use verify::spu::recorder::{Booked, Tally, cycles, record};
+use verify::spu::recorder::{Booked, STAGES, Tally, cycles, record};
 use verify::spu::sequence::{Operand, TABLE};
+use verify::spu::store::{Buffers, CAPACITY, LocalStoreFull, Map, code_bytes, queue_bytes};
 
 const M: Spu<Scalar> = Spu(Scalar);
 
@@ -367,4 +375,147 @@ fn bounds_keep_their_order_on_random_kernels() {
     }
     eprintln!("{judged} prefixes, the bounds differ in {apart}");
     assert!(apart > judged / 10, "the bounds were hardly ever apart");
+}
+
+/// A bundled or generated scene and a small view of it.
+fn view(word: &str, [width, height]: [u32; 2]) -> (Scene, Camera) {
+    let loaded = Source::parse(word).and_then(|source| source.load()).expect("bundled or generated");
+    let framing = Framing { size: Some(Size::new(width, height).expect("a size")), ..Framing::default() };
+    let camera = loaded.camera(&framing).expect("it can be seen");
+    (loaded.animation.frames()[0].clone(), camera)
+}
+
+fn measured(plan: Plan, scene: &Scene, camera: &Camera, every: u32) -> Measured {
+    measure_nearest(plan, scene, camera, every, &|| ()).expect("the plan refuses nothing")
+}
+
+/// The machine's pictures, events and counts are those of the host's scalar machine through its own door, bit for bit.
+#[test]
+fn its_pictures_are_those_of_the_scalar_machine() {
+    let nested = Plan { walk: Loop::Nested, ..Plan::paper() };
+    let uncut = Plan { culling: Culling::None, ..Plan::safe() };
+    let mut hits = 0;
+    for word in ["1hvr", "uniform:300:1", "sphereflake:3"] {
+        let (scene, camera) = view(word, [94, 51]);
+        for plan in [Plan::paper(), Plan::safe(), nested, uncut] {
+            let model = measured(plan, &scene, &camera, 1);
+            let host = Tracer::new(plan, Level::SCALAR).render(&scene, &camera).expect("a picture");
+            let same = model.image.ids == host.image.ids
+                && model.image.rgba == host.image.rgba
+                && bits(&model.image.t) == bits(&host.image.t);
+            assert!(same, "{word}: {plan}");
+            assert_eq!(model.counts, host.counts, "{word}: {plan}");
+            assert_eq!(model.events, host.events, "{word}: {plan}");
+            hits += host.image.ids.iter().filter(|id| **id != MISS).count();
+        }
+    }
+    eprintln!("{hits} pixels of {} hit", 12 * 94 * 51);
+    assert!(hits > 10_000, "too little was hit");
+}
+
+fn bits(t: &[f32]) -> Vec<u32> {
+    t.iter().map(|t| t.to_bits()).collect()
+}
+
+/// What the model books agrees with what the tracer itself counts, in every stage, and the bounds keep their order.
+#[test]
+fn its_books_agree_with_the_tracers_counts() {
+    let (scene, camera) = view("1hvr", [160, 90]);
+    for walk in [Loop::Nested, Loop::Flattened] {
+        let plan = Plan { walk, ..Plan::paper() };
+        let model = measured(plan, &scene, &camera, 1);
+        let (trace, counts) = (&model.trace, model.counts);
+        eprintln!("{walk:?}: {counts:?}, {} packets, {} repeats", trace.packets, trace.repeats);
+        assert_eq!(trace.fetched, counts.candidates);
+        let [culled, looped] = [Site::Culled, Site::NextId].map(|site| trace.site(site));
+        assert_eq!([culled.executed, culled.taken], [counts.candidates, counts.culled]);
+        assert_eq!(trace.site(Site::Sphere).executed, counts.candidates - counts.culled);
+        let listing = trace.site(Site::EmptyCell);
+        assert_eq!(
+            listing.executed - listing.taken + looped.taken,
+            counts.candidates,
+            "rounds of the loop over ids"
+        );
+        assert!(trace.repeats > 0 && trace.repeats < trace.fetched);
+        let voxelized = model.voxelize.stage(Stage::Voxelize);
+        assert_eq!(voxelized, model.voxelize.total(), "only the grid is built before rays are traced");
+        for stage in STAGES {
+            let booked = if stage == Stage::Voxelize { voxelized } else { trace.stage(stage) };
+            assert!(booked.even + booked.odd > 0, "{walk:?}: nothing was booked in {stage:?}");
+            for policy in Policy::ALL {
+                let [least, most] = booked.bracket(policy);
+                assert!(0 < least && least <= most, "{walk:?}, {stage:?}, {policy:?}: {booked:?}");
+            }
+        }
+        // Each loop has its own branches, and only these.
+        let nested = trace.site(Site::NextK).executed;
+        let flattened = trace.site(Site::NextCell).executed;
+        match walk {
+            Loop::Nested => assert_eq!((nested, flattened), (counts.cells, 0)),
+            _ => {
+                assert!(nested == 0 && flattened >= counts.cells, "{flattened} steps, {} cells", counts.cells)
+            }
+        }
+    }
+}
+
+/// A part of the blocks stands for all of them: cycles scaled up are near those of the whole.
+#[test]
+fn a_lattice_of_blocks_stands_for_all() {
+    let (scene, camera) = view("uniform:300:1", [320, 180]);
+    let costs = [1, 4].map(|every| {
+        let model = measured(Plan::paper(), &scene, &camera, every);
+        let [traced, blocks] = model.blocks();
+        assert_eq!([blocks, traced], [80 * 45, 80 * 45 / u64::from(every)]);
+        frame_cost(&model, 300, Policy::Hinted, Buffers::Single).expect("it can be moved")
+    });
+    let ratio = [0, 1].map(|bound| costs[1].cycles[bound] / costs[0].cycles[bound]);
+    eprintln!("whole {:?}, a quarter scaled up: times {ratio:?}", costs[0]);
+    assert!(ratio.into_iter().all(|r| (0.9..1.1).contains(&r)), "{ratio:?}");
+    let [slow, fast] = costs[0].frames_per_second();
+    assert!(0.0 < slow && slow <= fast);
+}
+
+/// The block of 20,480 bytes takes two transfers; a list ends at 2,048; odd addresses are refused.
+#[test]
+fn transfers_have_limits() {
+    let transfers = |address, bytes| Transfer::new(address, bytes).map(|t| (t.transfers, t.best));
+    assert_eq!(transfers(0, 20_480), Ok((2, true)));
+    assert_eq!(transfers(0, 16_384), Ok((1, true)));
+    assert_eq!(transfers(16, 16_400), Ok((2, false)));
+    assert_eq!(transfers(0, 0), Ok((0, true)));
+    assert_eq!(transfers(8, 16), Err(TransferError::Unaligned { address: 8, bytes: 16 }));
+    assert_eq!(transfers(0, 20), Err(TransferError::Unaligned { address: 0, bytes: 20 }));
+    assert_eq!(transfers(0, 2048 * 16_384), Ok((2048, true)));
+    let bytes = 2048 * 16_384 + 16;
+    assert_eq!(transfers(0, bytes), Err(TransferError::TooLong { bytes, transfers: 2049 }));
+    // 256 KiB at 25.6 GB/s: 10.24 µs.
+    let whole = Transfer::new(0, 262_144).expect("it can be moved");
+    assert_eq!(whole.seconds(6).map(|s| (s * 1e8).round()), [1024.0, 6144.0]);
+}
+
+/// 16³ cells of 32 bytes are half the local store. What does not fit is refused with its map, and one sphere less may fit.
+#[test]
+fn what_does_not_fit_is_refused_with_its_map() {
+    assert_eq!(queue_bytes(16), 128 * 1024);
+    let code = code_bytes(Plan::paper()).expect("a sphere is not refused");
+    eprintln!("code: {code} bytes");
+    assert!((2_000..30_000).contains(&code), "{code}");
+    for buffers in [Buffers::Single, Buffers::Double] {
+        let map = |spheres| Map::new(code, queue_bytes(16), spheres, 1280, 16, buffers);
+        let most = map(0).most_spheres() as usize;
+        eprintln!("{buffers:?}: at most {most} spheres\n{}", map(most));
+        assert_eq!(map(most).fits(), Ok(map(most)));
+        let full = map(most + 1).fits().expect_err("one more");
+        assert_eq!(full, LocalStoreFull { map: map(most + 1) });
+        assert!(full.map.total() > CAPACITY && full.to_string().contains("131072"), "{full}");
+        let parts = [full.map.code, full.map.grid, full.map.spheres, full.map.colors, full.map.pixels];
+        assert_eq!(parts.iter().sum::<u64>() + full.map.slices + full.map.stack, full.map.total());
+    }
+    let double = Map::new(code, 0, 0, 1280, 0, Buffers::Double);
+    assert_eq!(double.pixels, 40_960);
+    // Sphereflake of level 4 with its grid: 243 of 256 KiB before there is any program.
+    let flake = Map::new(code, queue_bytes(16), 7381, 1280, 16, Buffers::Single);
+    assert_eq!((flake.grid + flake.spheres) / 1024, 243);
+    assert!(flake.fits().is_err());
 }

@@ -328,6 +328,12 @@ impl Grid {
         spheres.get(part.clone()).map_or((&[], &[]), |spheres| (&ids[part], spheres))
     }
 
+    /// Whether its cells are queues.
+    #[must_use]
+    pub fn has_queues(&self) -> bool {
+        matches!(self.storage, Storage::Queues(_))
+    }
+
     /// How far apart in the list neighbours on each axis are.
     #[inline(always)]
     #[must_use]

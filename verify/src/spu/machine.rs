@@ -4,7 +4,8 @@
 //! again, are one quadword, and what is made of such alone is one too: a compiler sees that from the source. What comes out of a
 //! chore, or out of lanes as a plain number, can be used when the chore, or the lane, can.
 //!
-//! Values and cycles know nothing of each other: [`Spu`] takes any machine for its values.
+//! Values and cycles know nothing of each other: [`Spu`] takes any machine for its values. Operations are calls, unlike the host
+//! machines': a kernel of inlined books would be enormous.
 
 use super::recorder::{QUADS, Ready, with};
 use super::sequence::{self as seq, Sequence};
@@ -125,6 +126,7 @@ impl<V: Machine> Machine for Spu<V> {
         with(|r| r.stage(stage));
     }
 
+    #[inline(never)]
     fn branch(self, taken: bool, site: Site) -> bool {
         with(|r| {
             if !r.is_muted() {
@@ -142,33 +144,41 @@ impl<V: Machine> Machine for Spu<V> {
         result
     }
 
+    #[inline(never)]
     fn lanes(self, x: [f32; LANES]) -> Self::F {
         Lanes::of_memory(self.0.lanes(x))
     }
+    #[inline(never)]
     fn lanes_of_four(self, x: [f32; 4]) -> Self::F {
         let scalar = [with(|r| r.scalar()); QUADS];
         let x = Lanes { value: self.0.lanes_of_four(x), ready: scalar, one: true };
         book(x.value, seq::FOUR, [(&x.ready, true); 3])
     }
+    #[inline(never)]
     fn lanes_i(self, x: [i32; LANES]) -> Self::I {
         Lanes::of_memory(self.0.lanes_i(x))
     }
+    #[inline(never)]
     fn to_array(self, x: Self::F) -> [f32; LANES] {
         x.to_memory();
         self.0.to_array(x.value)
     }
+    #[inline(never)]
     fn to_array_i(self, x: Self::I) -> [i32; LANES] {
         x.to_memory();
         self.0.to_array_i(x.value)
     }
+    #[inline(never)]
     fn first(self, x: Self::F) -> f32 {
         with(|r| r.comes_out(x.ready[0]));
         self.0.first(x.value)
     }
+    #[inline(never)]
     fn first_i(self, x: Self::I) -> i32 {
         with(|r| r.comes_out(x.ready[0]));
         self.0.first_i(x.value)
     }
+    #[inline(never)]
     fn to_bits(self, x: Self::B) -> u32 {
         with(|r| {
             if r.is_muted() {
@@ -185,78 +195,103 @@ impl<V: Machine> Machine for Spu<V> {
         });
         self.0.to_bits(x.value)
     }
+    #[inline(never)]
     fn splat(self, x: f32) -> Self::F {
         Lanes::of_scalar(self.0.splat(x))
     }
+    #[inline(never)]
     fn splat_i(self, x: i32) -> Self::I {
         Lanes::of_scalar(self.0.splat_i(x))
     }
+    #[inline(never)]
     fn add(self, x: Self::F, y: Self::F) -> Self::F {
         two!(self, add, seq::ADD, x, y)
     }
+    #[inline(never)]
     fn sub(self, x: Self::F, y: Self::F) -> Self::F {
         two!(self, sub, seq::SUB, x, y)
     }
+    #[inline(never)]
     fn mul(self, x: Self::F, y: Self::F) -> Self::F {
         two!(self, mul, seq::MUL, x, y)
     }
+    #[inline(never)]
     fn div(self, x: Self::F, y: Self::F) -> Self::F {
         two!(self, div, seq::DIV, x, y)
     }
+    #[inline(never)]
     fn sqrt(self, x: Self::F) -> Self::F {
         one!(self, sqrt, seq::SQRT, x)
     }
+    #[inline(never)]
     fn neg(self, x: Self::F) -> Self::F {
         one!(self, neg, seq::NEG, x)
     }
+    #[inline(never)]
     fn lt(self, x: Self::F, y: Self::F) -> Self::B {
         two!(self, lt, seq::LT, x, y)
     }
+    #[inline(never)]
     fn le(self, x: Self::F, y: Self::F) -> Self::B {
         two!(self, le, seq::LE, x, y)
     }
+    #[inline(never)]
     fn lt_i(self, x: Self::I, y: Self::I) -> Self::B {
         two!(self, lt_i, seq::LT_I, x, y)
     }
+    #[inline(never)]
     fn and(self, x: Self::B, y: Self::B) -> Self::B {
         two!(self, and, seq::AND, x, y)
     }
+    #[inline(never)]
     fn or(self, x: Self::B, y: Self::B) -> Self::B {
         two!(self, or, seq::OR, x, y)
     }
+    #[inline(never)]
     fn not(self, x: Self::B) -> Self::B {
         one!(self, not, seq::NOT, x)
     }
+    #[inline(never)]
     fn select(self, choose: Self::B, yes: Self::F, no: Self::F) -> Self::F {
         three!(self, select, seq::SELECT, choose, yes, no)
     }
+    #[inline(never)]
     fn select_i(self, choose: Self::B, yes: Self::I, no: Self::I) -> Self::I {
         three!(self, select_i, seq::SELECT, choose, yes, no)
     }
+    #[inline(never)]
     fn add_i(self, x: Self::I, y: Self::I) -> Self::I {
         two!(self, add_i, seq::ADD_I, x, y)
     }
+    #[inline(never)]
     fn or_i(self, x: Self::I, y: Self::I) -> Self::I {
         two!(self, or_i, seq::OR, x, y)
     }
+    #[inline(never)]
     fn shl_16(self, x: Self::I) -> Self::I {
         one!(self, shl_16, seq::SHL_16, x)
     }
+    #[inline(never)]
     fn shr_16(self, x: Self::I) -> Self::I {
         one!(self, shr_16, seq::SHR_16, x)
     }
+    #[inline(never)]
     fn floor(self, x: Self::F) -> Self::I {
         one!(self, floor, seq::FLOOR, x)
     }
+    #[inline(never)]
     fn truncate(self, x: Self::F) -> Self::I {
         one!(self, truncate, seq::TRUNCATE, x)
     }
+    #[inline(never)]
     fn smallest(self, x: Self::F) -> Self::F {
         extreme(self.0.smallest(x.value), &x)
     }
+    #[inline(never)]
     fn largest(self, x: Self::F) -> Self::F {
         extreme(self.0.largest(x.value), &x)
     }
+    #[inline(never)]
     fn any(self, x: Self::B, site: Site) -> bool {
         let taken = self.0.any(x.value, site);
         if !with(|r| r.is_muted()) {

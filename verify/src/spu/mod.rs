@@ -4,14 +4,19 @@
 //! mailbox save, a map of the local store. Refused: scenes that do not fit, with the map.
 //!
 //! The modules in the order in which a run goes through them: the instructions ([`isa`]), what each operation is in instructions
-//! ([`sequence`]), the two clocks ([`pipeline`]), branches ([`predict`]), where all is booked ([`recorder`]), and the
-//! [`Machine`](optimized::machine::Machine) that books ([`machine`]).
+//! ([`sequence`]), the two clocks ([`pipeline`]), branches ([`predict`]), where all is booked ([`recorder`]), the
+//! [`Machine`](optimized::machine::Machine) that books ([`machine`]), memory ([`store`], [`dma`]), a frame ([`model`](mod@model)), and what it costs
+//! over six SPUs ([`cost`]).
 
+pub mod cost;
+pub mod dma;
 pub mod isa;
 pub mod machine;
+pub mod model;
 pub mod pipeline;
 pub mod predict;
 pub mod recorder;
 pub mod sequence;
+pub mod store;
 
 pub use machine::Spu;
