@@ -6,7 +6,7 @@
 //! The modules in the order in which a run goes through them: the instructions ([`isa`]), what each operation is in instructions
 //! ([`sequence`]), the two clocks ([`pipeline`]), branches ([`predict`]), where all is booked ([`recorder`]), the
 //! [`Machine`](optimized::machine::Machine) that books ([`machine`]), memory ([`store`], [`dma`]), a frame ([`model`](mod@model)), and what it costs
-//! over six SPUs ([`cost`]).
+//! over six SPUs ([`cost`]), and all that is to be said of a scene ([`survey`](mod@survey)).
 
 pub mod cost;
 pub mod dma;
@@ -18,5 +18,7 @@ pub mod predict;
 pub mod recorder;
 pub mod sequence;
 pub mod store;
+pub mod survey;
+pub mod text;
 
 pub use machine::Spu;

@@ -6,7 +6,7 @@
 use super::isa::{Op, Pipe};
 use super::pipeline::Pipeline;
 use super::predict::{Branches, MISPREDICT, Policy, Predictor, SITES};
-use super::sequence::{Operand, Sequence, of_chore};
+use super::sequence::{MAILBOX, Operand, Sequence, of_chore};
 use optimized::machine::{Chore, Site, Stage};
 use serde::Serialize;
 use std::cell::RefCell;
@@ -152,6 +152,11 @@ pub fn record<R>(work: impl FnOnce() -> R) -> (R, Tally) {
 pub fn cycles<R>(work: impl FnOnce() -> R) -> (R, Booked) {
     let (result, tally) = record(work);
     (result, tally.total())
+}
+
+/// Books asking a mailbox about one sphere.
+pub(super) fn ask_mailbox() {
+    with(|r| _ = r.run(MAILBOX, [&[0; QUADS]; 3], 1));
 }
 
 thread_local! {
