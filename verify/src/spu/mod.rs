@@ -6,10 +6,14 @@
 //! The modules in the order in which a run goes through them: the instructions ([`isa`]), what each operation is in instructions
 //! ([`sequence`]), the two clocks ([`pipeline`]), branches ([`predict`]), where all is booked ([`recorder`]), the
 //! [`Machine`](optimized::machine::Machine) that books ([`machine`]), memory ([`store`], [`dma`]), a frame ([`model`](mod@model)), and what it costs
-//! over six SPUs ([`cost`]), and all that is to be said of a scene ([`survey`](mod@survey)).
+//! over six SPUs ([`cost`]), all that is to be said of a scene ([`survey`](mod@survey)), and of the
+//! paper ([`claims`](mod@claims)). [`host`] has the same loops on this computer.
 
+pub mod claims;
 pub mod cost;
+pub mod data;
 pub mod dma;
+pub mod host;
 pub mod isa;
 pub mod machine;
 pub mod model;

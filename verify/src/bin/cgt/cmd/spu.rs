@@ -2,6 +2,7 @@
 
 use super::verify::{load, warn};
 use crate::args::Spu as Args;
+use crate::environment::environment;
 use crate::{Failure, progress, say};
 use optimized::Plan;
 use optimized::camera::BLOCK;
@@ -9,13 +10,36 @@ use optimized::plan::Resolution;
 use std::path::Path;
 use std::process::ExitCode;
 use verify::picture::{check_folder, write_atomically};
+use verify::scenes::catalogue::DEFAULT;
+use verify::seed::seed;
+use verify::spu::claims::{self, claims};
+use verify::spu::data::{Report, SCHEMA_VERSION};
+use verify::spu::host::{SEED, Way, on_host, walks};
 use verify::spu::store::code_bytes;
 use verify::spu::survey::{FRAMES, Input, Survey, survey};
 use verify::spu::text::{capacity, text};
 
+/// Walks that --host counts.
+const WALKS: u64 = 5000;
+
+/// Scenes on which claims are judged.
+const CLAIMED: [&str; 8] = [
+    "1hvr",
+    "adk",
+    "sphereflake:3",
+    "sphereflake:4",
+    "uniform:500:1",
+    "uniform:1000:1",
+    "uniform:2000:1",
+    "uniform:4000:1",
+];
+
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if args.capacity {
         return show_capacity(args);
+    }
+    if let Some(word) = &args.walk {
+        return walk(word);
     }
     if let Some(file) = &args.json {
         check_folder(file.parent().unwrap_or(Path::new(".")))?;
@@ -28,15 +52,31 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             surveys.push(survey);
         }
     }
+    let seed = seed();
+    let claims = if args.claims { claims(&surveys, seed) } else { Vec::new() };
+    if args.claims {
+        say(&format!("CGT_SEED={seed}\n{}", claims::text(&claims)))?;
+    }
+    let host = if args.host { Some(on_host(&std::env::current_exe()?, WALKS)) } else { None };
+    if let Some(host) = &host {
+        say(&host.to_string())?;
+    }
+    let mut environment = environment(1, &[]);
+    environment.seed = Some(seed);
+    let report = Report { schema_version: SCHEMA_VERSION, kind: "spu", environment, surveys, claims, host };
     if let Some(file) = &args.json {
-        write_atomically(file, (serde_json::to_string_pretty(&surveys)? + "\n").as_bytes())?;
+        write_atomically(file, (serde_json::to_string_pretty(&report)? + "\n").as_bytes())?;
     }
     Ok(ExitCode::SUCCESS)
 }
 
 /// What is surveyed where no scene is named.
 fn scenes(args: &Args) -> Vec<String> {
-    if args.scenes.is_empty() { vec![verify::scenes::catalogue::DEFAULT.into()] } else { args.scenes.clone() }
+    if !args.scenes.is_empty() {
+        return args.scenes.clone();
+    }
+    let names: &[&str] = if args.claims { &CLAIMED } else { &[DEFAULT] };
+    names.iter().map(|name| (*name).to_owned()).collect()
 }
 
 fn plan(args: &Args) -> Plan {
@@ -62,6 +102,19 @@ fn one(args: &Args, word: &str, frame: usize) -> Result<Survey, Failure> {
     };
     let tick = progress::bar(word, "on the SPU model", FRAMES * camera.size().height().div_ceil(BLOCK));
     Ok(survey(&input, &*tick).map_err(|error| format!("{word}: {error}"))?)
+}
+
+/// Walks by one of the ways that --host counts, told as `nested:avx2:1000`.
+fn walk(word: &str) -> Result<ExitCode, Failure> {
+    let mut parts = word.split(':');
+    let (way, level, times) = (parts.next(), parts.next(), parts.next().and_then(|n| n.parse().ok()));
+    let way = Way::ALL.into_iter().find(|known| Some(known.name()) == way);
+    let (Some(way), Some(level), Some(times)) = (way, level, times) else {
+        return Err(format!("`{word}`: expected LOOP:LEVEL:WALKS").into());
+    };
+    let [cells, places] = walks(way, level, times, SEED)?;
+    say(&format!("{cells} cells, {places}\n"))?;
+    Ok(ExitCode::SUCCESS)
 }
 
 /// How many spheres fit, and which of the scenes that are named.
