@@ -16,8 +16,10 @@ use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::seed::{count, generator, seed};
 use verify::spu::Spu;
+use verify::spu::claims::{Answer, Judgement, claims};
 use verify::spu::cost::frame_cost;
 use verify::spu::dma::{Transfer, TransferError};
+use verify::spu::host::{SEED, Way, on_model, walks};
 use verify::spu::isa::{Class, Op, Pipe};
 use verify::spu::machine::Lanes;
 use verify::spu::model::{Measured, measure_nearest};
@@ -26,6 +28,7 @@ use verify::spu::predict::{Policy, SITES};
 use verify::spu::recorder::{Booked, STAGES, Tally, cycles, record};
 use verify::spu::sequence::{Operand, TABLE};
 use verify::spu::store::{Buffers, CAPACITY, LocalStoreFull, Map, code_bytes, queue_bytes};
+use verify::spu::survey::{Input, Survey, SurveyError, survey};
 
 const M: Spu<Scalar> = Spu(Scalar);
 
@@ -518,4 +521,141 @@ fn what_does_not_fit_is_refused_with_its_map() {
     let flake = Map::new(code, queue_bytes(16), 7381, 1280, 16, Buffers::Single);
     assert_eq!((flake.grid + flake.spheres) / 1024, 243);
     assert!(flake.fits().is_err());
+}
+
+/// The ways in which loops are counted on this computer all go through the same cells, at each level.
+#[test]
+fn counted_loops_visit_the_same_cells() {
+    for level in Level::available() {
+        let sums = Way::ALL.map(|way| walks(way, level.name(), 100, SEED).expect("it is available"));
+        eprintln!("{level}: {sums:?}");
+        assert!(sums[0][0] > 100 * 16 && sums.iter().all(|sum| *sum == sums[0]), "{level}: {sums:?}");
+    }
+    assert!(walks(Way::Nested, "no-such-level", 1, SEED).is_err());
+}
+
+/// Of the same walks on the model: a flattened loop with branches mispredicts at least as often as its cases change, with
+/// selection once a walk.
+#[test]
+fn on_the_model_selection_is_what_saves() {
+    let [nested, branching, flattened] = on_model(SEED);
+    eprintln!("{nested:?}\n{branching:?}\n{flattened:?}");
+    let hinted = Policy::Hinted as usize;
+    assert_eq!(flattened.mispredicts[hinted], flattened.walks);
+    assert!(branching.mispredicts[hinted] > 10 * flattened.walks);
+    assert!(nested.mispredicts[hinted] > 10 * flattened.walks);
+}
+
+#[test]
+fn judgements_follow_answers() {
+    use Answer::{No, Open, Silent, Yes};
+    for (answers, judgement) in [
+        (&[Yes, Yes][..], Judgement::Confirmed),
+        (&[Yes, Silent], Judgement::Confirmed),
+        (&[Yes, Open], Judgement::Conditional),
+        (&[Yes, No], Judgement::Conditional),
+        (&[No, Open], Judgement::Refuted),
+        (&[No, Silent], Judgement::Refuted),
+        (&[Open, Silent], Judgement::Undecided),
+        (&[Silent], Judgement::NotJudged),
+        (&[], Judgement::NotJudged),
+    ] {
+        assert_eq!(Judgement::of(answers), judgement, "{answers:?}");
+    }
+}
+
+/// Verdicts come from figures: with other figures they are others.
+#[test]
+fn verdicts_turn_with_the_figures() {
+    let seed = seed();
+    eprintln!("CGT_SEED={seed}");
+    let (scene, camera) = view("uniform:300:1", [96, 54]);
+    let input = Input {
+        name: "uniform:300:1",
+        frame: 0,
+        scene: &scene,
+        camera: &camera,
+        plan: Plan::paper(),
+        every: 1,
+        unlimited: false,
+    };
+    let found = survey(&input, &|| ()).expect("it fits");
+    let judged = |surveys: &[Survey]| -> Vec<Judgement> {
+        claims(surveys, seed).iter().map(|claim| claim.judgement).collect()
+    };
+    let before = judged(std::slice::from_ref(&found));
+    let mut turned = vec![false; before.len()];
+    let mut better = found.clone();
+    better.picture.wrong = u64::from(found.picture.wrong == 0);
+    better.picture.wrong_as_printed = u64::from(found.picture.wrong_as_printed == 0);
+    better.lists.false_negatives = u64::from(found.lists.false_negatives == 0);
+    better.lists.spanning = u64::from(found.lists.spanning == 0);
+    better.lists.false_positives = found.lists.ids - found.lists.false_positives;
+    better.lists.dropped = u64::from(found.lists.dropped == 0);
+    better.culling.factor = found.culling.factor.map(|f| if (4.0..=8.0).contains(&f) { 1.0 } else { 5.0 });
+    std::mem::swap(&mut better.culling.cycles_with, &mut better.culling.cycles_without);
+    better.mailbox.saved = found.mailbox.saved.map(|saved| -saved);
+    better.store.spheres = CAPACITY;
+    better.store_double.spheres = CAPACITY;
+    for rate in &mut better.rates {
+        rate.frames_per_second = rate.frames_per_second.map(|rate| rate / 1e6);
+        rate.frame_cycles = [1.0, 1.0];
+    }
+    better.loops.swap(0, 1);
+    for kind in &mut better.loops {
+        kind.walk = if kind.walk == "nested" { "flattened" } else { "nested" };
+        for policy in &mut kind.policies {
+            policy.per_branch = 1.0 - policy.per_branch;
+        }
+    }
+    let after = judged(&[better]);
+    for (k, (a, b)) in before.iter().zip(&after).enumerate() {
+        turned[k] = a != b;
+    }
+    let claims = claims(std::slice::from_ref(&found), seed);
+    for (claim, turned) in claims.iter().zip(&turned) {
+        eprintln!(
+            "{} {}: {} [{}]",
+            if *turned { "turned" } else { "stayed" },
+            claim.judgement,
+            claim.claim,
+            claim.evidence
+        );
+    }
+    // Those that stay need no scene, but for the one of which small pictures say nothing.
+    assert!(turned.iter().filter(|turned| **turned).count() >= 18, "too few verdicts depend on figures");
+}
+
+/// The survey's own sums: culling, mailbox and lists against the tracer's counts.
+#[test]
+fn a_survey_agrees_with_the_tracer() {
+    let (scene, camera) = view("1hvr", [160, 90]);
+    let input = |plan, unlimited| Input {
+        name: "1hvr",
+        frame: 0,
+        scene: &scene,
+        camera: &camera,
+        plan,
+        every: 1,
+        unlimited,
+    };
+    let found = survey(&input(Plan::paper(), false), &|| ()).expect("it fits");
+    let host = |plan| Tracer::new(plan, Level::SCALAR).render(&scene, &camera).expect("a picture");
+    let (with, without) = (host(Plan::paper()), host(Plan { culling: Culling::None, ..Plan::paper() }));
+    assert_eq!(found.culling.tests_without, without.counts.candidates);
+    assert_eq!(found.culling.tests_with, with.counts.candidates - with.counts.culled);
+    assert_eq!(found.mailbox.fetched, with.counts.candidates);
+    assert_eq!(found.lists.dropped + found.lists.spanning, with.events.count());
+    assert!(found.lists.spanning > 0 && found.lists.false_negatives > 0, "it has spheres larger than cells");
+    let stages = &found.rates[0].stages;
+    assert_eq!(stages.len(), 7, "six stages and transfers");
+    let sum: f64 = stages.iter().map(|stage| stage.per_frame[1]).sum();
+    // Six SPUs cannot be quicker than a sixth of the work, nor much slower with stripes of four scanlines.
+    let ratio = 6.0 * found.rates[0].frame_cycles[1] / sum;
+    assert!((0.99..1.6).contains(&ratio), "{ratio}");
+    // The safe plan lists what it must, and finds the right picture.
+    let safe = survey(&input(Plan::safe(), true), &|| ()).expect("it can be measured");
+    assert_eq!((safe.picture.wrong, safe.lists.false_negatives, safe.lists.dropped), (0, 0, 0));
+    // Certified packets are none of the model's.
+    assert!(matches!(survey(&input(Plan::fast(), true), &|| ()), Err(SurveyError::Plan { .. })));
 }

@@ -1,6 +1,7 @@
 //! All of a run of `cgt spu` as plain data, whose JSON these types are. A changed field means a new [`SCHEMA_VERSION`].
 
 use super::claims::Claim;
+use super::curves::Curve;
 use super::host::OnHost;
 use super::survey::Survey;
 use crate::report::Environment;
@@ -22,6 +23,8 @@ pub struct Report {
     pub surveys: Vec<Survey>,
     /// The paper's claims, if they were asked for.
     pub claims: Vec<Claim>,
+    /// How figures grow, if it was asked.
+    pub curves: Vec<Curve>,
     /// Counts of this computer, if they were asked for.
     pub host: Option<OnHost>,
 }

@@ -4,11 +4,14 @@
 //! The program runs itself: [`walks`] is what is counted. Of a simulated run only that is, and of a counted one the same run
 //! without walks is taken off. What is not there is not available, and never a zero.
 
+use super::machine::Spu;
+use super::predict::{LOOP_SITES, Policy};
+use super::recorder::record;
 use crate::seed::generator;
 use optimized::frustum::Slices;
 use optimized::grid::MAX_CELLS;
-use optimized::host::Work;
-use optimized::machine::Machine;
+use optimized::host::{Scalar, Work};
+use optimized::machine::{Machine, Site};
 use optimized::plan::Loop;
 use optimized::walk::{Visitor, walk};
 use optimized::{Level, host::NoSuchLevel};
@@ -54,7 +57,7 @@ const SLICES: usize = 16;
 const DIFFERENT: usize = 64;
 
 /// What one walk goes through.
-fn random_slices(seed: u64) -> Vec<Slices> {
+pub(super) fn random_slices(seed: u64) -> Vec<Slices> {
     let mut rng = generator(seed, 1);
     let mut one = |_| {
         let mut slices = Slices {
@@ -90,7 +93,19 @@ impl Sum {
     }
 }
 
-struct Summing<M>(M, Sum);
+pub(super) struct Summing<M>(pub(super) M, Sum);
+
+impl<M> Summing<M> {
+    /// Nothing visited yet.
+    pub(super) fn new(m: M) -> Self {
+        Self(m, Sum::default())
+    }
+
+    /// Cells visited.
+    pub(super) fn cells(&self) -> u64 {
+        self.1.cells
+    }
+}
 
 impl<M: Machine> Visitor<M> for Summing<M> {
     #[inline(always)]
@@ -131,7 +146,7 @@ impl Work for Walks<'_> {
     type Output = Sum;
 
     fn on<M: Machine + Send + Sync>(self, m: M) -> Sum {
-        let mut summing = Summing(m, Sum::default());
+        let mut summing = Summing::new(m);
         for slices in self.slices.iter().cycle().take(usize::try_from(self.times).unwrap_or(usize::MAX)) {
             match self.way {
                 Way::Masks => masks(slices, &mut summing.1),
@@ -186,6 +201,59 @@ fn selected(slices: &Slices, sum: &mut Sum) {
     }
 }
 
+/// The flattened loop as a compiler likes it, its branches told to the SPU.
+fn branching(m: Spu<Scalar>, slices: &Slices) {
+    let (mut s, mut j, mut k) = (0, slices.first[0][0], slices.first[1][0]);
+    loop {
+        if m.branch(k < slices.last[1][s], Site::NextK) {
+            k += 1;
+        } else if m.branch(j < slices.last[0][s], Site::NextJ) {
+            (j, k) = (j + 1, slices.first[1][s]);
+        } else {
+            s += 1;
+            if s < slices.count {
+                (j, k) = (slices.first[0][s], slices.first[1][s]);
+            }
+        }
+        if !m.branch(s < slices.count, Site::NextCell) {
+            return;
+        }
+    }
+}
+
+/// Branches and mispredicts of loops on the SPU, by policies.
+#[derive(Clone, Debug, Serialize)]
+pub struct OnModel {
+    /// The way.
+    pub way: &'static str,
+    /// Walks.
+    pub walks: u64,
+    /// Branches of the loops.
+    pub branches: u64,
+    /// Mispredicts in the order of [`Policy::ALL`].
+    pub mispredicts: [u64; 3],
+}
+
+/// The walks that are counted on this computer, on the SPU model: nested, flattened with branches, flattened as intended.
+#[must_use]
+pub fn on_model(seed: u64) -> [OnModel; 3] {
+    let (m, slices) = (Spu(Scalar), random_slices(seed));
+    let all: [(&str, &dyn Fn(&Slices)); 3] = [
+        (Way::Nested.name(), &|slices| walk(m, Loop::Nested, slices, &mut Summing::new(m))),
+        ("branching", &|slices| branching(m, slices)),
+        (Way::Flattened.name(), &|slices| walk(m, Loop::Flattened, slices, &mut Summing::new(m))),
+    ];
+    all.map(|(way, work)| {
+        let ((), tally) = record(|| slices.iter().for_each(work));
+        OnModel {
+            way,
+            walks: slices.len() as u64,
+            branches: LOOP_SITES.iter().map(|site| tally.site(*site).executed).sum(),
+            mispredicts: Policy::ALL.map(|policy| tally.mispredicts(&LOOP_SITES, policy)),
+        }
+    })
+}
+
 /// What was counted of one way.
 #[derive(Clone, Debug, Serialize)]
 pub struct Counted {
@@ -204,6 +272,8 @@ pub struct Counted {
 pub struct OnHost {
     /// The level of the walks.
     pub level: String,
+    /// On the SPU model, the same walks.
+    pub model: [OnModel; 3],
     /// By Valgrind's predictor; none with the reason.
     pub simulated: Result<Vec<Counted>, String>,
     /// By the processor's counters; none with the reason.
@@ -259,7 +329,12 @@ pub fn on_host(program: &Path, times: u64) -> OnHost {
             })
             .collect()
     };
-    OnHost { level: level.into(), simulated: all(simulate), counters: all(read_counters) }
+    OnHost {
+        level: level.into(),
+        model: on_model(SEED),
+        simulated: all(simulate),
+        counters: all(read_counters),
+    }
 }
 
 /// Of the slices: a program's walks are the same in every run.

@@ -7,16 +7,19 @@
 //! ([`sequence`]), the two clocks ([`pipeline`]), branches ([`predict`]), where all is booked ([`recorder`]), the
 //! [`Machine`](optimized::machine::Machine) that books ([`machine`]), memory ([`store`], [`dma`]), a frame ([`model`](mod@model)), and what it costs
 //! over six SPUs ([`cost`]), all that is to be said of a scene ([`survey`](mod@survey)), and of the
-//! paper ([`claims`](mod@claims)). [`host`] has the same loops on this computer.
+//! paper ([`claims`](mod@claims)). [`host`] has the same loops on this computer;
+//! [`text`](mod@text), [`page`](mod@page) with its [`curves`](mod@curves), and [`data`] show it all.
 
 pub mod claims;
 pub mod cost;
+pub mod curves;
 pub mod data;
 pub mod dma;
 pub mod host;
 pub mod isa;
 pub mod machine;
 pub mod model;
+pub mod page;
 pub mod pipeline;
 pub mod predict;
 pub mod recorder;

@@ -28,6 +28,10 @@ fn heading(survey: &Survey) -> String {
     wrapped(&line) + "\n"
 }
 
+fn percent(part: u64, of: u64) -> String {
+    if of == 0 { "-".into() } else { figure(100.0 * part as f64 / of as f64) }
+}
+
 /// Least and most, the same figure once.
 fn range([least, most]: Bracket) -> String {
     let (least, most) = (figure(least), figure(most));
@@ -63,13 +67,18 @@ fn rates(survey: &Survey) -> String {
 
 fn loops(survey: &Survey) -> String {
     let mut text = String::new();
-    for LoopCost { walk, traversals, cells, branches, policies, .. } in &survey.loops {
+    for LoopCost { walk, traversals, cells, branches, policies, sites } in &survey.loops {
         text += &format!(
             "{walk}: {} traversals, {} cells, {} branches of the loop; mispredicts of it\n",
             count(*traversals),
             count(*cells),
             count(*branches)
         );
+        if let Some(site) = sites.iter().find(|site| site.site == "NextCell") {
+            let dead = percent(site.executed - cells, site.executed);
+            text +=
+                &format!("  {dead} % of its steps are for slices without cells, each taken like one cell\n");
+        }
         for policy in policies {
             text += &format!(
                 "  {:<11} {:>6} a cell {:>6} a traversal {:>5} % of its branches; all branches {:>6} a traversal; {} million cycles\n",

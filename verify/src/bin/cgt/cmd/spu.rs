@@ -13,8 +13,10 @@ use verify::picture::{check_folder, write_atomically};
 use verify::scenes::catalogue::DEFAULT;
 use verify::seed::seed;
 use verify::spu::claims::{self, claims};
+use verify::spu::curves::{Asked, Curve, POINTS, curves};
 use verify::spu::data::{Report, SCHEMA_VERSION};
 use verify::spu::host::{SEED, Way, on_host, walks};
+use verify::spu::page::page;
 use verify::spu::store::code_bytes;
 use verify::spu::survey::{FRAMES, Input, Survey, survey};
 use verify::spu::text::{capacity, text};
@@ -44,6 +46,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if let Some(file) = &args.json {
         check_folder(file.parent().unwrap_or(Path::new(".")))?;
     }
+    if let Some(folder) = &args.out {
+        check_folder(folder)?;
+    }
     let mut surveys = Vec::new();
     for word in scenes(args) {
         for frame in args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1) {
@@ -61,13 +66,49 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if let Some(host) = &host {
         say(&host.to_string())?;
     }
+    let curves = if args.curves { both_curves(args)? } else { Vec::new() };
     let mut environment = environment(1, &[]);
     environment.seed = Some(seed);
-    let report = Report { schema_version: SCHEMA_VERSION, kind: "spu", environment, surveys, claims, host };
-    if let Some(file) = &args.json {
-        write_atomically(file, (serde_json::to_string_pretty(&report)? + "\n").as_bytes())?;
-    }
+    let report =
+        Report { schema_version: SCHEMA_VERSION, kind: "spu", environment, surveys, claims, curves, host };
+    write(args, &report)?;
     Ok(ExitCode::SUCCESS)
+}
+
+fn write(args: &Args, report: &Report) -> Result<(), Failure> {
+    let json = serde_json::to_string_pretty(report)? + "\n";
+    if let Some(file) = &args.json {
+        write_atomically(file, json.as_bytes())?;
+    }
+    if let Some(folder) = &args.out {
+        let page = page(report)?;
+        std::fs::create_dir_all(folder)
+            .map_err(|error| format!("the folder `{}`: {error}", folder.display()))?;
+        write_atomically(&folder.join("spu.json"), json.as_bytes())?;
+        write_atomically(&folder.join("spu.html"), page.as_bytes())?;
+        say(&format!("page: {}\n", folder.join("spu.html").display()))?;
+    }
+    Ok(())
+}
+
+/// Blocks of which one is traced for a point of a curve, if --sample does not pass over more.
+const SAMPLE: u32 = 8;
+
+fn both_curves(args: &Args) -> Result<Vec<Curve>, Failure> {
+    let word = scenes(args).swap_remove(0);
+    let (loaded, scene) = load(&word, args.view.frame)?;
+    let framing = args.view.framing();
+    let camera = loaded.camera(&framing)?;
+    let asked = Asked {
+        plan: plan(args),
+        every: args.sample.max(SAMPLE),
+        framing: &framing,
+        name: &word,
+        scene: &scene,
+        camera: &camera,
+    };
+    let tick = progress::bar("curves", "on the SPU model", POINTS);
+    Ok(curves(&asked, &*tick)?.into())
 }
 
 /// What is surveyed where no scene is named.
