@@ -3,12 +3,12 @@
 //! Cycle counts of short sequences are written out instruction by instruction; mispredicts of nested loops are held against their
 //! closed form; random kernels must keep the two bounds in order.
 
-use contract::{Camera, MISS, Scene, Size};
+use contract::{Camera, DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
 use optimized::frustum::Slices;
 use optimized::grid::MAX_CELLS;
 use optimized::host::Scalar;
 use optimized::machine::{LANES, Machine, Site, Stage};
-use optimized::plan::{Culling, Loop};
+use optimized::plan::{Culling, Loop, Resolution, Voxelizer};
 use optimized::walk::{Cursor, Rectangle, Visitor, step, walk};
 use optimized::{Level, Plan, Tracer};
 use rand::{Rng, RngExt};
@@ -17,18 +17,19 @@ use verify::scenes::frame::Framing;
 use verify::seed::{count, generator, seed};
 use verify::spu::Spu;
 use verify::spu::claims::{Answer, Judgement, claims};
-use verify::spu::cost::frame_cost;
+use verify::spu::cost::{dealt, frame_cost};
 use verify::spu::dma::{Transfer, TransferError};
 use verify::spu::host::{SEED, Way, on_model, walks};
 use verify::spu::isa::{Class, Op, Pipe};
 use verify::spu::machine::Lanes;
 use verify::spu::model::{Measured, measure_nearest};
 use verify::spu::pipeline::Pipeline;
-use verify::spu::predict::{Policy, SITES};
+use verify::spu::predict::{Policy, Predictor, SITES};
 use verify::spu::recorder::{Booked, STAGES, Tally, cycles, record};
 use verify::spu::sequence::{Operand, TABLE};
 use verify::spu::store::{Buffers, CAPACITY, LocalStoreFull, Map, code_bytes, queue_bytes};
 use verify::spu::survey::{Input, Survey, SurveyError, survey};
+use verify::visible::listed;
 
 const M: Spu<Scalar> = Spu(Scalar);
 
@@ -309,7 +310,8 @@ fn mispredicts_of_the_flattened_loop_have_a_closed_form() {
         most = most.max(cells);
         let (nested, tally) = walked(Loop::Nested, &sizes);
         assert_eq!(nested, cells);
-        let ends = 1 + sizes.len() as u64 + sizes.iter().map(|[j, _]| j.unsigned_abs() as u64).sum::<u64>();
+        let ends =
+            1 + sizes.len() as u64 + sizes.iter().map(|[j, _]| u64::from(j.unsigned_abs())).sum::<u64>();
         let hinted = tally.mispredicts(&[Site::NextK, Site::NextJ, Site::NextSlice], Policy::Hinted);
         assert_eq!(hinted, ends, "CGT_SEED={seed}: {sizes:?}: one for the end of each loop");
     }
@@ -456,7 +458,11 @@ fn its_books_agree_with_the_tracers_counts() {
         match walk {
             Loop::Nested => assert_eq!((nested, flattened), (counts.cells, 0)),
             _ => {
-                assert!(nested == 0 && flattened >= counts.cells, "{flattened} steps, {} cells", counts.cells)
+                assert!(
+                    nested == 0 && flattened >= counts.cells,
+                    "{flattened} steps, {} cells",
+                    counts.cells
+                );
             }
         }
     }
@@ -658,4 +664,98 @@ fn a_survey_agrees_with_the_tracer() {
     assert_eq!((safe.picture.wrong, safe.lists.false_negatives, safe.lists.dropped), (0, 0, 0));
     // Certified packets are none of the model's.
     assert!(matches!(survey(&input(Plan::fast(), true), &|| ()), Err(SurveyError::Plan { .. })));
+}
+
+/// Hints by hand: GCC needs eight instructions of a straight line, or a loop of at most 600 bytes with its hint still in force; of
+/// two hinted branches in turn each sets its hint anew.
+#[test]
+fn hints_by_hand() {
+    let gcc = Policy::Gcc as usize;
+    let hinted = Policy::Hinted as usize;
+    let mut predictor = Predictor::default();
+    let mut decide = |site, taken, instructions| predictor.decide(site, taken, instructions);
+    let cost = decide(Site::NextK, true, 7);
+    assert_eq!((cost.mispredicted, cost.hinted), ([true, false, true], [false, true, false]), "too near");
+    let cost = decide(Site::NextK, true, 15);
+    assert_eq!((cost.mispredicted, cost.hinted), ([true, false, false], [false, false, true]), "eight ahead");
+    let cost = decide(Site::NextK, true, 16);
+    assert_eq!((cost.mispredicted, cost.hinted), ([true, false, false], [false; 3]), "a small loop");
+    let cost = decide(Site::NextJ, true, 17);
+    assert_eq!((cost.mispredicted[gcc], cost.hinted[hinted]), (true, true), "another branch");
+    let cost = decide(Site::NextK, false, 18);
+    assert_eq!(
+        (cost.mispredicted, cost.hinted[hinted]),
+        ([false, true, true], true),
+        "its hint was replaced"
+    );
+    // A loop of 151 instructions is too long for its hint, and as a straight line it has room for another.
+    let cost = decide(Site::NextK, true, 18 + 151);
+    assert_eq!((cost.mispredicted[gcc], cost.hinted[gcc]), (false, true));
+    let cost = decide(Site::Culled, true, 200);
+    assert_eq!((cost.mispredicted, cost.hinted), ([true; 3], [false; 3]), "unlikely ones are never hinted");
+    let cost = decide(Site::Culled, false, 201);
+    assert_eq!(cost.mispredicted, [false; 3]);
+}
+
+/// Stripes to whoever is free: six at once, then where there is room.
+#[test]
+fn stripes_are_dealt_to_six() {
+    let all = |cycles: &[f64]| dealt(cycles.iter().copied());
+    assert_eq!(all(&[]).to_bits(), 0.0f64.to_bits());
+    for (cycles, last) in [
+        (&[5.0][..], 5.0),
+        (&[1.0; 6], 1.0),
+        (&[1.0; 7], 2.0),
+        (&[5.0, 1.0, 1.0, 1.0, 1.0, 1.0, 3.0, 4.0], 5.0),
+        (&[5.0, 1.0, 1.0, 1.0, 1.0, 1.0, 3.0, 4.5], 5.5),
+    ] {
+        assert!((all(cycles) - last).abs() < 1e-12, "{cycles:?}");
+    }
+}
+
+/// One sphere in many cells: each time but the first that a packet finds it is a repeat.
+#[test]
+fn repeats_of_one_sphere_are_all_but_the_first() {
+    let sphere = Sphere { center: [0.0; 3], radius: 1.0, color: [9; 3] };
+    let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("a scene");
+    let plan = Plan {
+        voxelizer: Voxelizer::BoxRange,
+        culling: Culling::None,
+        resolution: Resolution::Fixed(6),
+        ..Plan::paper()
+    };
+    let mut most = 0;
+    for step in 0..40u8 {
+        let at = f32::from(step) * 0.05 - 1.0;
+        let size = Size::new(4, 4).expect("a size");
+        let camera = Camera::new([0.0, 0.0, 4.0], [at, at, -4.0], [0.02, 0.0, 0.0], [0.0, 0.02, 0.0], size);
+        let model = measured(plan, &scene, &camera.expect("it has an area"), 1);
+        let (candidates, repeats) = (model.counts.candidates, model.trace.repeats);
+        assert_eq!(model.trace.packets, 1);
+        assert_eq!((model.trace.fetched, repeats), (candidates, candidates.saturating_sub(1)), "at {at}");
+        let again = model.trace.again();
+        assert_eq!(again.even + again.odd > 0, repeats > 0, "at {at}");
+        assert!(again.in_order < model.trace.total().in_order);
+        most = most.max(repeats);
+    }
+    eprintln!("up to {most} repeats");
+    assert!(most >= 3, "no packet met it often");
+}
+
+/// Balls and cells by hand. A ball of radius 0.1 whose centre is 0.065 from a corner of cells on each axis meets all eight but the
+/// opposite one, since 0.065 √2 < 0.1 < 0.065 √3. One of radius 1.6 about the middle of 4x4x4 unit cells meets all but the eight at
+/// the corners, and these are the ones in which eight corners list it.
+#[test]
+fn false_positives_and_negatives_by_hand() {
+    let ends = [0.0, 4.0].map(|x| Sphere { center: [x; 3], radius: 0.001, color: [0; 3] });
+    for (center, radius, expected) in [(2.065, 0.1, [10, 1, 0]), (2.0, 1.6, [10, 8, 56])] {
+        let spheres = [&ends[..], &[Sphere { center: [center; 3], radius, color: [0; 3] }]].concat();
+        let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("a scene");
+        let (_, camera) = view("uniform:10:1", [4, 4]);
+        let plan = Plan { resolution: Resolution::Fixed(4), ..Plan::paper() };
+        let model = measured(plan, &scene, &camera, 1);
+        let listed = listed(model.seen.grid.as_ref().expect("a grid"), &scene);
+        assert_eq!([listed.ids, listed.needless, listed.missing], expected, "{listed:?}");
+        assert_eq!(listed.twice, 0);
+    }
 }

@@ -322,7 +322,7 @@ fn loops(surveys: &[Survey], seed: u64) -> Vec<Claim> {
         }),
         nested("Nested loops mispredict over 50 percent, without hints", Policy::Unhinted),
         nested("… with a hint for each loop", Policy::Hinted),
-        asked("The flattened loop with a hint mispredicts once a traversal", surveys, |s| once(s)),
+        asked("The flattened loop with a hint mispredicts once a traversal", surveys, once),
         asked("The flattened loop without a hint mispredicts at every cell but the last", surveys, |s| {
             let site = next_cell(s);
             let right = |[executed, traversals, unhinted, _]: [u64; 4]| unhinted == executed - traversals;

@@ -82,7 +82,8 @@ pub fn frame_cost(
 }
 
 /// When the last is done, if each stripe goes to the SPU that is free first.
-fn dealt(stripes: impl Iterator<Item = f64>) -> f64 {
+#[must_use]
+pub fn dealt(stripes: impl Iterator<Item = f64>) -> f64 {
     let mut free = [0.0f64; SPUS];
     for cycles in stripes {
         free.sort_by(f64::total_cmp);

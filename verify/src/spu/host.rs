@@ -238,12 +238,7 @@ pub struct OnModel {
 #[must_use]
 pub fn on_model(seed: u64) -> [OnModel; 3] {
     let (m, slices) = (Spu(Scalar), random_slices(seed));
-    let all: [(&str, &dyn Fn(&Slices)); 3] = [
-        (Way::Nested.name(), &|slices| walk(m, Loop::Nested, slices, &mut Summing::new(m))),
-        ("branching", &|slices| branching(m, slices)),
-        (Way::Flattened.name(), &|slices| walk(m, Loop::Flattened, slices, &mut Summing::new(m))),
-    ];
-    all.map(|(way, work)| {
+    let count = |way, work: &dyn Fn(&Slices)| {
         let ((), tally) = record(|| slices.iter().for_each(work));
         OnModel {
             way,
@@ -251,7 +246,12 @@ pub fn on_model(seed: u64) -> [OnModel; 3] {
             branches: LOOP_SITES.iter().map(|site| tally.site(*site).executed).sum(),
             mispredicts: Policy::ALL.map(|policy| tally.mispredicts(&LOOP_SITES, policy)),
         }
-    })
+    };
+    [
+        count(Way::Nested.name(), &|slices| walk(m, Loop::Nested, slices, &mut Summing::new(m))),
+        count("branching", &|slices| branching(m, slices)),
+        count(Way::Flattened.name(), &|slices| walk(m, Loop::Flattened, slices, &mut Summing::new(m))),
+    ]
 }
 
 /// What was counted of one way.
@@ -283,6 +283,12 @@ pub struct OnHost {
 /// For the terminal.
 impl fmt::Display for OnHost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "mispredicts a walk on the SPU model, {}:", Policy::ALL.map(Policy::name).join(", "))?;
+        for OnModel { way, walks, branches, mispredicts } in &self.model {
+            let [a, b, c] = mispredicts.map(|n| n as f64 / *walks as f64);
+            let all = *branches as f64 / *walks as f64;
+            writeln!(f, "  {way:<10} {a:.2}, {b:.2}, {c:.2} of {all:.1} branches of the loop")?;
+        }
         for (how, counts) in
             [("Valgrind's predictor", &self.simulated), ("the processor's counters", &self.counters)]
         {

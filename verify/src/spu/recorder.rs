@@ -297,18 +297,18 @@ impl Recorder {
     /// A sequence so many times side by side, from the last scalars; when all of it can be used.
     fn batch(&mut self, sequence: Sequence, times: usize) -> u64 {
         let (start, mut latest) = (self.scalar, 0);
-        let mut results = [[0; BATCH]; LONGEST_CHORE];
+        let mut results = [[0; LONGEST_CHORE]; BATCH];
         for (step, (op, operands)) in sequence.iter().enumerate() {
-            for time in 0..times {
+            for results in results.iter_mut().take(times) {
                 let mut ready = 0;
                 for from in *operands {
                     ready = ready.max(match from {
                         Operand::In(_) => start,
-                        Operand::Step(i) => results[*i][time],
+                        Operand::Step(i) => results[*i],
                     });
                 }
-                results[step][time] = self.issue(*op, ready);
-                latest = latest.max(results[step][time]);
+                results[step] = self.issue(*op, ready);
+                latest = latest.max(results[step]);
             }
         }
         latest

@@ -160,7 +160,7 @@ fn walk(word: &str) -> Result<ExitCode, Failure> {
 
 /// How many spheres fit, and which of the scenes that are named.
 fn show_capacity(args: &Args) -> Result<ExitCode, Failure> {
-    let width = args.view.size.map_or(verify::scenes::frame::SIZE[0], |size| size.width());
+    let width = args.view.size.map_or(verify::scenes::frame::SIZE[0], contract::Size::width);
     say(&capacity(code_bytes(plan(args))?, width))?;
     Ok(ExitCode::SUCCESS)
 }
