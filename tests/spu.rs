@@ -98,6 +98,21 @@ fn sequences_are_well_formed() {
             assert!(earlier, "{name}: instruction {at}");
         }
     }
+    // Every operand of an operation is waited for.
+    let one = ["sqrt", "neg", "not", "shl_16", "shr_16", "floor", "truncate"];
+    let two = ["add", "sub", "mul", "div", "lt", "le", "lt_i", "and", "or, or_i", "add_i"];
+    let three = ["select, select_i"];
+    let mut judged = 0;
+    for (names, arity) in [(&one[..], 1), (&two, 2), (&three, 3)] {
+        for (name, sequence) in TABLE.into_iter().filter(|(name, _)| names.contains(name)) {
+            for i in 0..arity {
+                let waits = sequence.iter().any(|(_, operands)| operands.contains(&Operand::In(i)));
+                assert!(waits, "{name}: operand {i}");
+            }
+            judged += 1;
+        }
+    }
+    assert_eq!(judged, one.len() + two.len() + three.len());
     // The published chain of GCC's inline square root.
     let chain = |name| {
         let (_, sequence) = TABLE.into_iter().find(|(n, _)| *n == name).expect("it is in the table");
@@ -546,6 +561,11 @@ fn counted_loops_visit_the_same_cells() {
 fn on_the_model_selection_is_what_saves() {
     let [nested, branching, flattened] = on_model(SEED);
     eprintln!("{nested:?}\n{branching:?}\n{flattened:?}");
+    // One branch a cell; with branches, also one for the row's end at each cell and one at each row's end; nested, these two, and of
+    // each walk 16 for empty slices, 16 for the next slice, and 15 for an early end.
+    let ends = nested.branches - 47 * nested.walks;
+    assert_eq!(branching.branches, flattened.branches + ends);
+    assert!(ends > flattened.branches && ends < 2 * flattened.branches);
     let hinted = Policy::Hinted as usize;
     assert_eq!(flattened.mispredicts[hinted], flattened.walks);
     assert!(branching.mispredicts[hinted] > 10 * flattened.walks);

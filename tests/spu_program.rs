@@ -73,6 +73,11 @@ fn capacity_and_bad_usage() {
         out.lines().any(|line| line.starts_with("20^3") && line.matches("no room").count() == 2),
         "{out}"
     );
+    let fits = |scene: &str| {
+        let line = out.lines().find(|line| line.starts_with(scene)).expect("a line for the scene");
+        line.split_whitespace().rev().take(2).map(|word| word == "yes").collect::<Vec<_>>()
+    };
+    assert_eq!([fits("1hvr"), fits("sphereflake:4"), fits("adk-water")], [[true; 2], [false; 2], [false; 2]]);
     for words in [
         &["--plan", "fast"][..],
         &["--frames", "3..3"],

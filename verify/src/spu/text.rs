@@ -5,6 +5,7 @@ use super::store::{Buffers, CAPACITY, Map, queue_bytes};
 use super::survey::{LoopCost, Survey};
 use crate::report::text::wrapped;
 use crate::report::words::{count, figure};
+use crate::scenes::catalogue::{Listing, list};
 
 /// All that a survey found.
 #[must_use]
@@ -136,7 +137,7 @@ fn sentences(survey: &Survey) -> Vec<String> {
     ]
 }
 
-/// How many spheres fit beside a grid of queues, with one pixel buffer and with two.
+/// How many spheres fit beside a grid of queues, with one pixel buffer and with two, and which scenes beside the paper's grid.
 #[must_use]
 pub fn capacity(code: u64, width: u32) -> String {
     let mut text = format!(
@@ -150,6 +151,17 @@ pub fn capacity(code: u64, width: u32) -> String {
             Err(_) => "no room".into(),
         });
         text += &format!("{:<8}{:>10}{:>20}{:>20}\n", format!("{n}^3"), queue_bytes(n), most[0], most[1]);
+    }
+    text += &format!(
+        "\n{:<28}{:>10}{:>12}{:>12}   (beside 16^3 cells)\n",
+        "scene", "spheres", "fits", "two buffers"
+    );
+    for Listing { name, spheres, .. } in list() {
+        let fits = [Buffers::Single, Buffers::Double].map(|buffers| {
+            let most = Map::new(code, queue_bytes(16), 0, width, 16, buffers).most_spheres();
+            if spheres <= most.into() { "yes" } else { "no" }
+        });
+        text += &format!("{name:<28}{spheres:>10}{:>12}{:>12}\n", fits[0], fits[1]);
     }
     text
 }
