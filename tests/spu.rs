@@ -673,6 +673,13 @@ fn a_survey_agrees_with_the_tracer() {
     assert_eq!(found.mailbox.fetched, with.counts.candidates);
     assert_eq!(found.lists.dropped + found.lists.spanning, with.events.count());
     assert!(found.lists.spanning > 0 && found.lists.false_negatives > 0, "it has spheres larger than cells");
+    // No hint that is given once and for all beats the better of both.
+    for site in found.loops.iter().flat_map(|of| &of.sites) {
+        assert!(
+            site.mispredicts.iter().take(2).all(|n| site.best <= *n) && 2 * site.best <= site.executed,
+            "{site:?}"
+        );
+    }
     let stages = &found.rates[0].stages;
     assert_eq!(stages.len(), 7, "six stages and transfers");
     let sum: f64 = stages.iter().map(|stage| stage.per_frame[1]).sum();

@@ -115,7 +115,7 @@ pub struct Mispredicts {
     pub per_cell: f64,
     /// By traversals.
     pub per_traversal: f64,
-    /// Those of the whole frame's branches, by traversals.
+    /// Those of all branches of tracing, by traversals.
     pub all_per_traversal: f64,
     /// Cycles of a frame over six SPUs.
     pub frame_cycles: Bracket,
@@ -132,6 +132,8 @@ pub struct SiteCount {
     pub taken: u64,
     /// Mispredicts by policy.
     pub mispredicts: [u64; 3],
+    /// The least there could be if it were hinted, or not, once and for all.
+    pub best: u64,
 }
 
 /// What culling buys.
@@ -357,6 +359,7 @@ fn loop_cost(walk: &'static str, frame: &Measured, spheres: usize) -> Result<Loo
             executed: branches.executed,
             taken: branches.taken,
             mispredicts: branches.mispredicts,
+            best: branches.taken.min(branches.executed - branches.taken),
         }
     };
     let sites = SITES.into_iter().map(count).filter(|site| site.executed > 0).collect();

@@ -1,8 +1,8 @@
-//! Surveys for the terminal: a table of stages for each scene, then loops, culling, mailbox, lists, picture and memory, a line each.
+//! Surveys for the terminal: a table of stages for each scene, then loops, branches, culling, mailbox, lists, picture and memory, a line each.
 
 use super::cost::Bracket;
 use super::store::{Buffers, CAPACITY, Map, queue_bytes};
-use super::survey::{LoopCost, Survey};
+use super::survey::{LoopCost, SiteCount, Survey};
 use crate::report::text::wrapped;
 use crate::report::words::{count, figure};
 use crate::scenes::catalogue::{Listing, list};
@@ -10,7 +10,7 @@ use crate::scenes::catalogue::{Listing, list};
 /// All that a survey found.
 #[must_use]
 pub fn text(survey: &Survey) -> String {
-    let mut text = heading(survey) + &stages(survey) + &rates(survey) + &loops(survey);
+    let mut text = heading(survey) + &stages(survey) + &rates(survey) + &loops(survey) + &sites(survey);
     for line in sentences(survey) {
         text += &(wrapped(&line) + "\n");
     }
@@ -90,6 +90,29 @@ fn loops(survey: &Survey) -> String {
                 figure(policy.all_per_traversal),
                 range(policy.frame_cycles.map(|cycles| cycles / 1e6)),
             );
+        }
+    }
+    text
+}
+
+/// Branch by branch, of the loop that the plan has and of the other.
+fn sites(survey: &Survey) -> String {
+    let mut text = String::new();
+    for LoopCost { walk, sites, .. } in &survey.loops {
+        text += &format!(
+            "{:<22}{:>12}{:>12}{:>12}{:>12}{:>12}{:>12}\n",
+            format!("branches, {walk}"),
+            "executed",
+            "taken",
+            "unhinted",
+            "hinted",
+            "GCC's rule",
+            "best"
+        );
+        for SiteCount { site, executed, taken, mispredicts: [a, b, c], best } in sites {
+            let cells: String =
+                [executed, taken, a, b, c, best].map(|n| format!("{:>12}", count(*n))).concat();
+            text += &format!("  {site:<20}{cells}\n");
         }
     }
     text
