@@ -5,7 +5,7 @@
 //! patterns, conversions by 64-bit integers. Lanes are bit patterns: of an f32, of an i32, or 0 and 1 for no and yes.
 
 use optimized::host::{Level, NoSuchLevel, VARIABLE, Work};
-use optimized::machine::{LANES, Machine, Site};
+use optimized::machine::{Chore, LANES, Machine, Site, Stage};
 use rand::{Rng, RngExt};
 use std::collections::BTreeMap;
 use std::process::Command;
@@ -49,11 +49,13 @@ const fn operation(name: &'static str, takes: &'static str, same: Same, oracle: 
     Operation { name, takes, same, oracle }
 }
 
-const OPERATIONS: [Operation; 31] = [
+const OPERATIONS: [Operation; 33] = [
     operation("lanes", "F", Same::Bits, Each(|x| x[0])),
     operation("lanes_i", "I", Same::Bits, Each(|x| x[0])),
     operation("to_array", "F", Same::Bits, Each(|x| x[0])),
     operation("to_array_i", "I", Same::Bits, Each(|x| x[0])),
+    operation("first", "F", Same::Bits, All(|x| x[0])),
+    operation("first_i", "I", Same::Bits, All(|x| x[0])),
     operation("splat", "F", Same::Bits, All(|x| x[0])),
     operation("splat_i", "I", Same::Bits, All(|x| x[0])),
     operation("add", "FF", Same::Number, Each(|x| add(x[0], x[1]))),
@@ -84,7 +86,7 @@ const OPERATIONS: [Operation; 31] = [
 ];
 
 /// Operations with tests of their own.
-const OTHERS: [&str; 4] = ["within", "any", "again", "to_bits"];
+const OTHERS: [&str; 8] = ["within", "stage", "branch", "beside", "lanes_of_four", "any", "again", "to_bits"];
 
 fn f(bits: u32) -> f64 {
     f32::from_bits(bits).into()
@@ -162,6 +164,8 @@ fn apply<M: Machine>(m: M, name: &str, x: &[Lanes]) -> Lanes {
     match name {
         "lanes" | "to_array" => of_f(f(0)),
         "lanes_i" | "to_array_i" => of_i(i(0)),
+        "first" => of_f(m.splat(m.first(f(0)))),
+        "first_i" => of_i(m.splat_i(m.first_i(i(0)))),
         "splat" => of_f(m.splat(f32::from_bits(x[0][0]))),
         "splat_i" => of_i(m.splat_i(x[0][0].cast_signed())),
         "add" => of_f(m.add(f(0), f(1))),
@@ -498,6 +502,34 @@ fn work_within_a_machine_is_done_once() {
     }
 }
 
+/// Four numbers in sixteen lanes, and what is only noted.
+struct Notes;
+
+impl Work for Notes {
+    type Output = (Lanes, [bool; 2], u32);
+
+    fn on<M: Machine + Send + Sync>(self, m: M) -> Self::Output {
+        let mut times = 0;
+        let four = m.within(|| {
+            m.stage(Stage::Cull);
+            m.beside(Chore::Cell, || {
+                times += 1;
+                m.to_array(m.lanes_of_four([1, 2, 0x7fc0_0005, 0x8000_0000].map(f32::from_bits)))
+            })
+        });
+        let branches = [false, true].map(|taken| m.branch(taken, Site::NextK));
+        (four.map(f32::to_bits), branches, times)
+    }
+}
+
+#[test]
+fn notes_change_nothing() {
+    let four: Lanes = std::array::from_fn(|lane| [1, 2, 0x7fc0_0005, 0x8000_0000][lane % 4]);
+    for level in Level::available() {
+        assert_eq!(level.run(Notes), (four, [false, true], 1), "{level}");
+    }
+}
+
 /// A few results known by heart, since the oracle's f64 could be flushed by the same fault as the subject's f32.
 struct Subnormals;
 
@@ -541,7 +573,7 @@ fn every_operation_has_a_test() {
     tested.sort_unstable();
     there.sort_unstable();
     assert_eq!(tested, there, "tested, and there to be tested");
-    assert_eq!(there.len(), 35, "the count in this test is the one thing to change after a new test");
+    assert_eq!(there.len(), 41, "the count in this test is the one thing to change after a new test");
 }
 
 #[test]

@@ -11,7 +11,7 @@ use contract::{Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
 use iced_x86::{Decoder, DecoderOptions, FlowControl, Instruction, InstructionInfoFactory, Mnemonic, OpKind};
 use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
 use optimized::host::Work;
-use optimized::machine::{LANES, Machine};
+use optimized::machine::{LANES, Machine, Site};
 use optimized::plan::{Cells, Loop, Voxelizer};
 use optimized::walk::{Cursor, Rectangle, step};
 use optimized::{Form, Level, Plan, Tracer};
@@ -188,6 +188,41 @@ fn step_probe<M: Machine>(m: M, x: &[[i32; LANES]; 11], y: &mut [[i32; LANES]; 3
     );
 }
 
+/// The loop of steps alone, through one slice and into the next, from one cell to the other.
+struct Steps<'a>(&'a [[i32; LANES]; 4], &'a mut [[i32; LANES]; 3]);
+
+impl Work for Steps<'_> {
+    type Output = ();
+
+    fn on<M: Machine + Send + Sync>(self, m: M) {
+        loop_probe(m, self.0, self.1);
+    }
+}
+
+/// What this calls is the loop's door.
+#[inline(never)]
+fn loop_probe<M: Machine>(m: M, x: &[[i32; LANES]; 4], y: &mut [[i32; LANES]; 3]) {
+    m.within(
+        #[inline(always)]
+        || {
+            let [first_j, first_k, last_j, last_k] = *x;
+            let rectangle = Rectangle {
+                first: [m.lanes_i(first_j), m.lanes_i(first_k)],
+                last: [m.lanes_i(last_j), m.lanes_i(last_k)],
+            };
+            let mut at = Cursor { slice: m.splat_i(0), j: rectangle.first[0], k: rectangle.first[1] };
+            loop {
+                let next = step(m, at, &rectangle, &rectangle);
+                if !m.again(m.lt_i(next.slice, m.splat_i(1)), Site::NextCell) {
+                    break;
+                }
+                at = next;
+            }
+            *y = [m.to_array_i(at.slice), m.to_array_i(at.j), m.to_array_i(at.k)];
+        },
+    );
+}
+
 /// Levels whose doors can be told from their surroundings: SSE2 is in every x86-64 program and needs none.
 fn levels_with_doors() -> Vec<&'static str> {
     if cfg!(not(all(target_arch = "x86_64", target_os = "linux"))) {
@@ -272,5 +307,40 @@ fn the_step_is_straight_line() {
         eprintln!("{level}: the step has {} instructions, {wide} of its width", doors[0].code.len());
         assert!(found.is_empty(), "{level}: the step branches: {found:?}");
         assert!(wide >= 20, "{level}: the step does not use its registers");
+    }
+}
+
+/// The compiler puts no branch back into the flattened loop: it has one conditional jump, and that goes backwards.
+#[test]
+fn the_flattened_loop_has_no_conditional_jump_but_its_own() {
+    for level in Level::available() {
+        let mut y = [[0; LANES]; 3];
+        let x = [0, 2, 3, 6].map(|lane| std::hint::black_box([lane; LANES]));
+        level.run(Steps(&x, &mut y));
+        assert_eq!(y, [0, 3, 6].map(|lane| [lane; LANES]), "{level}: the last cell");
+    }
+    let levels = levels_with_doors();
+    let program = Program::read();
+    let probes: Vec<_> = program.named("machine_code::loop_probe").collect();
+    for level in levels {
+        let callees = probes.iter().flat_map(|(_, probe)| program.callees(probe));
+        let doors: Vec<_> = callees
+            .map(|callee| &program.functions[&callee])
+            .filter(|f| level_of_door(&f.name) == Some(level))
+            .collect();
+        assert_eq!(doors.len(), 1, "{level}: the probe's door is not found");
+        let branches =
+            |i: &&Instruction| !matches!(i.flow_control(), FlowControl::Next | FlowControl::Return);
+        let found: Vec<_> = doors[0].code.iter().filter(branches).collect();
+        eprintln!("{level}: the loop has {} instructions, branches {:?}", doors[0].code.len(), found);
+        let backwards = |i: &Instruction| i.near_branch_target() < i.ip();
+        let own = found.len() == 1
+            && found[0].flow_control() == FlowControl::ConditionalBranch
+            && backwards(found[0]);
+        assert!(
+            own,
+            "{level}: the loop branches: {:?}",
+            found.iter().map(|i| i.mnemonic()).collect::<Vec<_>>()
+        );
     }
 }

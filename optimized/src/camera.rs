@@ -77,9 +77,9 @@ pub fn middles<M: Machine>(m: M, camera: &Camera, x: u32, y: u32) -> (M::F, M::F
     let size = camera.size();
     let column = |lane: u32| (x + lane % BLOCK).min(size.width() - 1) as f32 + 0.5;
     let row = |lane: u32| (y + lane / BLOCK).min(size.height() - 1) as f32 + 0.5;
-    let (mut xs, mut ys) = ([0.0; LANES], [0.0; LANES]);
-    for (lane, i) in (0..).zip(0..LANES) {
-        (xs[i], ys[i]) = (column(lane), row(lane));
+    let mut ys = [0.0; LANES];
+    for (lane, y) in (0..).zip(&mut ys) {
+        *y = row(lane);
     }
-    (m.lanes(xs), m.lanes(ys))
+    (m.lanes_of_four([column(0), column(1), column(2), column(3)]), m.lanes(ys))
 }

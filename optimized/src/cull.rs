@@ -51,10 +51,10 @@ impl<M: Machine> Planes<M> {
     #[inline(always)]
     pub fn new(m: M, frustum: &Frustum<M>, margins: Margins) -> Self {
         let [[lo_y, hi_y], [lo_z, hi_z]] = frustum.slope_arrays(m);
-        let along = four(m, [-lo_y, hi_y, -lo_z, hi_z]);
+        let along = m.lanes_of_four([-lo_y, hi_y, -lo_z, hi_z]);
         let (one, longer) = (m.splat(1.0), if margins == Margins::Derived { LONGER } else { 1.0 });
         let length = m.mul(m.sqrt(m.add(one, m.mul(along, along))), m.splat(longer));
-        let normal = [along, four(m, [1.0, -1.0, 0.0, 0.0]), four(m, [0.0, 0.0, 1.0, -1.0])];
+        let normal = [along, m.lanes_of_four([1.0, -1.0, 0.0, 0.0]), m.lanes_of_four([0.0, 0.0, 1.0, -1.0])];
         Self { normal, minus_length: m.neg(length) }
     }
 
@@ -64,10 +64,4 @@ impl<M: Machine> Planes<M> {
         let distance = m.dot(self.normal, center);
         m.any(m.lt(distance, m.mul(self.minus_length, radius)), Site::Culled)
     }
-}
-
-/// Rim: four numbers, again and again.
-#[inline(always)]
-fn four<M: Machine>(m: M, [a, b, c, d]: [f32; 4]) -> M::F {
-    m.lanes([a, b, c, d, a, b, c, d, a, b, c, d, a, b, c, d])
 }

@@ -5,7 +5,7 @@ use crate::camera::{BLOCK, CameraLanes, middles};
 use crate::crew::Crew;
 use crate::event::{Events, RenderError};
 use crate::grid::Memory;
-use crate::machine::Machine;
+use crate::machine::{Machine, Stage};
 use crate::plan::{Packet, Plan, Sharing};
 use crate::seen::{Counts, Seen, Worker};
 use crate::settle::ALL;
@@ -228,16 +228,34 @@ fn fill<M: Machine>(
     let rows = stripe.ids.len() / stripe.width;
     for y in (stripe.y..).step_by(BLOCK as usize).take(rows.div_ceil(BLOCK as usize)) {
         for x in (0..camera.size().width()).step_by(BLOCK as usize) {
-            let (xs, ys) = middles(m, camera, x, y);
-            let block = lanes.block(m, xs, ys);
             let owners = known.map(
                 #[inline(always)]
                 |known| known.block([x, y]),
             );
-            let answers = seen.trace(m, scene.spheres(), &block, owners, worker);
-            painter.write(m, block.dir, &answers, [x, y], ALL, stripe);
+            block(m, seen, scene, camera, (&lanes, &painter), owners, [x, y], stripe, worker);
         }
     }
+}
+
+/// Traces and colours the block whose first pixel is (x, y), into the stripe that holds it.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "all that a block needs")]
+pub fn block<M: Machine>(
+    m: M,
+    seen: &Seen,
+    scene: &Scene,
+    camera: &Camera,
+    (lanes, painter): (&CameraLanes<M>, &Painter<M>),
+    owners: Option<&[u32]>,
+    [x, y]: [u32; 2],
+    stripe: &mut Stripe<'_>,
+    worker: &mut Worker,
+) {
+    m.stage(Stage::Frustum);
+    let (xs, ys) = middles(m, camera, x, y);
+    let block = lanes.block(m, xs, ys);
+    let answers = seen.trace(m, scene.spheres(), &block, owners, worker);
+    painter.write(m, block.dir, &answers, [x, y], ALL, stripe);
 }
 
 /// Fills a stripe tile by tile, after it was cleared of what the last frame left there.

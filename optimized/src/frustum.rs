@@ -19,7 +19,7 @@
 
 use crate::camera::Block;
 use crate::grid::{Grid, MAX_CELLS};
-use crate::machine::{LANES, Machine, Site, three};
+use crate::machine::{Chore, LANES, Machine, Site, three};
 use crate::plan::Margins;
 
 /// 16 units of f32 rounding.
@@ -146,7 +146,7 @@ impl<M: Machine> Bundle<M> {
         let first = three(
             block.dir,
             #[inline(always)]
-            |d| m.to_array(d)[0],
+            |d| m.first(d),
         );
         let axis = major(first);
         let heading = Heading::new(axis, first[axis] > 0.0);
@@ -165,7 +165,7 @@ impl<M: Machine> Frustum<M> {
     #[inline(always)]
     pub fn slope_arrays(&self, m: M) -> [[f32; 2]; 2] {
         let [[lo_y, hi_y], [lo_z, hi_z]] = self.slopes;
-        [[m.to_array(lo_y)[0], m.to_array(hi_y)[0]], [m.to_array(lo_z)[0], m.to_array(hi_z)[0]]]
+        [[m.first(lo_y), m.first(hi_y)], [m.first(lo_z), m.first(hi_z)]]
     }
 
     /// The slices in the order in which the packet meets them.
@@ -183,6 +183,11 @@ impl<M: Machine> Frustum<M> {
             let distances = [lower - position, upper - position];
             [*near, *far] = if self.heading.forward { distances } else { [-distances[1], -distances[0]] };
         }
+        m.beside(
+            Chore::Distances(count),
+            #[inline(always)]
+            || (),
+        );
         let farthest = slices.far[count - 1].abs() + grid.widen;
         for start in (0..count).step_by(LANES) {
             let part = start..start + LANES;

@@ -16,7 +16,7 @@
 use crate::bins::Bins;
 use crate::crew::Crew;
 use crate::event::{Event, Events, RenderError};
-use crate::machine::{LANES, Machine};
+use crate::machine::{Chore, LANES, Machine, Site};
 use crate::plan::{Cells, OnEvent, Plan, Resolution, Voxelizer};
 use crate::queue::{MAX_IDS, Queue, Queues};
 use crate::voxelize::CellBox;
@@ -229,7 +229,7 @@ impl Grid {
                     }
                 }
             }
-            if let Some(storage) = fill_lists(&plan, &axes, balls, &cell_boxes) {
+            if let Some(storage) = fill_lists(m, &plan, &axes, balls, &cell_boxes) {
                 return Ok(Self { axes, widen, large: Vec::new(), storage });
             }
             n = n.map(|n| (n / 2).max(1));
@@ -289,6 +289,12 @@ impl Grid {
         &ids[offsets[first] as usize..offsets[last + 1] as usize]
     }
 
+    /// Whether its cells are queues.
+    #[must_use]
+    pub fn has_queues(&self) -> bool {
+        matches!(self.storage, Storage::Queues(_))
+    }
+
     /// How far apart in the list neighbours on each axis are.
     #[inline(always)]
     #[must_use]
@@ -330,7 +336,7 @@ fn fill_queues<M: Machine>(
     events: &mut Events,
 ) -> Result<Vec<Queue>, Event> {
     let strides = strides(axes);
-    let mut queues = vec![Queue::EMPTY; cells(axes)];
+    let mut queues = m.beside(Chore::Clear(2 * cells(axes)), || vec![Queue::EMPTY; cells(axes)]);
     let mut places = Vec::new();
     for ((id, cells), ball) in (0..).zip(boxes).zip(balls) {
         places.clear();
@@ -351,22 +357,37 @@ fn fill_queues<M: Machine>(
             }
             let pushed = m.within(
                 #[inline(always)]
-                || Queues::read(m, &read).push(m, m.splat_i(id.cast_signed())).to_array(m),
+                || {
+                    m.beside(
+                        Chore::Push(places.len()),
+                        #[inline(always)]
+                        || Queues::read(m, &read).push(m, m.splat_i(id.cast_signed())).to_array(m),
+                    )
+                },
             );
             for (queue, &cell) in pushed.iter().zip(places) {
                 queues[index(strides, cell)] = *queue;
             }
         }
+        m.branch(id as usize + 1 < balls.len(), Site::NextSphere);
     }
     Ok(queues)
 }
 
 /// Count, then write. `None` if there are more entries than u32 can number: a coarser grid is needed.
-fn fill_lists(plan: &Plan, axes: &[Axis; 3], balls: &[Bounds], boxes: &[CellBox]) -> Option<Storage> {
+fn fill_lists<M: Machine>(
+    m: M,
+    plan: &Plan,
+    axes: &[Axis; 3],
+    balls: &[Bounds],
+    boxes: &[CellBox],
+) -> Option<Storage> {
     let strides = strides(axes);
-    let mut counts = vec![0u64; cells(axes)];
+    let mut counts = m.beside(Chore::Clear(cells(axes).div_ceil(4)), || vec![0u64; cells(axes)]);
     for (cells, ball) in boxes.iter().zip(balls) {
-        cells.for_each(plan.voxelizer, axes, ball, |cell| counts[index(strides, cell)] += 1);
+        cells.for_each(plan.voxelizer, axes, ball, |cell| {
+            m.beside(Chore::Entry, || counts[index(strides, cell)] += 1);
+        });
     }
     let mut offsets = Vec::with_capacity(counts.len() + 1);
     let mut entries = 0u64;
@@ -379,10 +400,13 @@ fn fill_lists(plan: &Plan, axes: &[Axis; 3], balls: &[Bounds], boxes: &[CellBox]
     let mut ids = vec![0; usize::try_from(entries).ok()?];
     for ((id, cells), ball) in (0..).zip(boxes).zip(balls) {
         cells.for_each(plan.voxelizer, axes, ball, |cell| {
-            let next = &mut next[index(strides, cell)];
-            ids[*next as usize] = id;
-            *next += 1;
+            m.beside(Chore::Entry, || {
+                let next = &mut next[index(strides, cell)];
+                ids[*next as usize] = id;
+                *next += 1;
+            });
         });
+        m.branch(id as usize + 1 < balls.len(), Site::NextSphere);
     }
     Some(Storage::Lists { offsets, ids })
 }
@@ -393,6 +417,7 @@ fn cell_boxes<M: Machine>(
     axes: &[Axis; 3],
     chunk: &[Bounds],
 ) -> impl Iterator<Item = CellBox> + use<M> {
+    m.beside(Chore::Boxes, || ());
     let corner = |i: usize, pick: fn(&Bounds) -> [f32; 3]| {
         let mut lanes = [0.0; LANES];
         for (lane, bounds) in lanes.iter_mut().zip(chunk) {

@@ -7,6 +7,10 @@
 //!
 //! Data steers control flow by two doors only, [`Machine::any`] and [`Machine::again`]; each names its
 //! [`Site`]. The *rim* (`lanes…`, `to_…`) is where values enter and leave; only what calls kernels uses it.
+//!
+//! What is done by plain numbers beside the lanes, a machine would not see. One that counts is told: [`Machine::stage`] which part
+//! of a frame is under way, [`Machine::branch`] where plain numbers decide, [`Machine::beside`] what else they do. On the host
+//! these are nothing at all.
 
 /// Lanes of a machine: the rays of a 4x4 block, or sixteen slices of a grid.
 pub const LANES: usize = 16;
@@ -34,6 +38,68 @@ pub enum Site {
     Culled,
     /// Is there another cell? (The one branch of the flattened loop.)
     NextCell,
+    /// Has the slice no cell? (Of the nested loops, as are the next three.)
+    EmptySlice,
+    /// Is there another cell on the third axis?
+    NextK,
+    /// Is there another row of cells on the second axis?
+    NextJ,
+    /// Is there another slice?
+    NextSlice,
+    /// Does the cell list no sphere?
+    EmptyCell,
+    /// Does it list another?
+    NextId,
+    /// Is there another sphere that a ray of the block hit?
+    NextOwner,
+    /// Is there another sphere to be put into cells?
+    NextSphere,
+}
+
+/// A part of a frame's work, by which a machine that counts keeps its tally.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// The grid is built.
+    Voxelize,
+    /// Rays are made and bounded, and the cells of each slice found.
+    Frustum,
+    /// From cell to cell, and from sphere to sphere of a cell.
+    Walk,
+    /// A sphere is held against the planes.
+    Cull,
+    /// Rays are intersected with a sphere.
+    Intersect,
+    /// Colours are found and written.
+    Shade,
+}
+
+/// What plain numbers do beside the lanes, of which a machine that counts must be told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Chore {
+    /// Sixteen spheres are read, seen from the eye, and boxed.
+    Boxes,
+    /// So many quadwords of cells are emptied.
+    Clear(usize),
+    /// An id is pushed onto the queues of so many cells.
+    Push(usize),
+    /// A cell's list is counted one longer, or an id is put into it.
+    Entry,
+    /// A packet begins.
+    Packet,
+    /// The distances of so many slices from the eye are found.
+    Distances(usize),
+    /// The rectangle of a slice is read.
+    Rectangle,
+    /// The place of a cell is found, and what it lists is read.
+    Cell,
+    /// An id is taken from what a cell lists, and its sphere read and spread over lanes.
+    Sphere(u32),
+    /// What a form needs of a sphere beside its centre is found.
+    Invariants,
+    /// What a colour needs of a sphere is read and spread over lanes.
+    Owner,
+    /// Sixteen colours are packed.
+    Pixels,
 }
 
 /// Sixteen lanes and what can be done with them.
@@ -56,8 +122,37 @@ pub trait Machine: Copy {
     fn within<R>(self, work: impl FnOnce() -> R) -> R {
         work()
     }
+    /// Note: what follows belongs to that part of a frame.
+    #[inline(always)]
+    fn stage(self, _: Stage) {}
+    /// Note: plain numbers decide here, as they do at once.
+    #[inline(always)]
+    fn branch(self, taken: bool, _: Site) -> bool {
+        taken
+    }
+    /// Note: does work that belongs to a chore, rim and all.
+    #[inline(always)]
+    fn beside<R>(self, _: Chore, work: impl FnOnce() -> R) -> R {
+        work()
+    }
+
     /// Rim: lanes from an array.
     fn lanes(self, x: [f32; LANES]) -> Self::F;
+    /// Rim: four numbers, again and again.
+    #[inline(always)]
+    fn lanes_of_four(self, [a, b, c, d]: [f32; 4]) -> Self::F {
+        self.lanes([a, b, c, d, a, b, c, d, a, b, c, d, a, b, c, d])
+    }
+    /// Rim: the first lane.
+    #[inline(always)]
+    fn first(self, x: Self::F) -> f32 {
+        self.to_array(x)[0]
+    }
+    /// Rim: the first lane.
+    #[inline(always)]
+    fn first_i(self, x: Self::I) -> i32 {
+        self.to_array_i(x)[0]
+    }
     /// Rim: lanes from an array.
     fn lanes_i(self, x: [i32; LANES]) -> Self::I;
     /// Rim: an array from lanes.

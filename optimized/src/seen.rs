@@ -10,7 +10,7 @@ use crate::double;
 use crate::event::{Event, Events, RenderError};
 use crate::frustum::{BEYOND, Bundle, Heading, Slices};
 use crate::grid::{Bounds, Grid, Memory};
-use crate::machine::{LANES, Machine, three};
+use crate::machine::{Chore, LANES, Machine, Site, Stage, three};
 use crate::margin;
 use crate::plan::{Arithmetic, Cells, Culling, Margins, OnEvent, Packet, Plan, Voxelizer};
 use crate::settle::{ALL, Answers, Owner, Question};
@@ -183,6 +183,7 @@ impl Seen {
         let [x, y, z] = arrays(m, block);
         let (mut t, mut id) = ([f32::INFINITY; LANES], [NONE; LANES]);
         for (lane, ((x, y), z)) in x.into_iter().zip(y).zip(z).enumerate() {
+            m.stage(Stage::Frustum);
             let ray = Block::new(m, [m.splat(x), m.splat(y), m.splat(z)]);
             // A direction of zero has no major axis, and hits nothing.
             let Some(bundle) = Bundle::of_block(m, &ray) else { continue };
@@ -220,10 +221,16 @@ impl Seen {
         known: Option<&[u32]>,
         worker: &mut Worker,
     ) -> Answers<M> {
+        m.beside(
+            Chore::Packet,
+            #[inline(always)]
+            || (),
+        );
         match self.plan.arithmetic {
             Arithmetic::Rounded(form) => {
                 let rounded = Rounded { form, block, bundle, nearest: Nearest::none(m) };
                 let nearest = self.meet_all(m, bundle, rounded, known, &mut worker.counts).nearest;
+                m.stage(Stage::Shade);
                 Answers::new(m, nearest.t, nearest.id, scene)
             }
             Arithmetic::Spu(form) => {
@@ -249,6 +256,7 @@ impl Seen {
                 };
                 certified.possible.clear();
                 let nearest = self.meet_all(m, bundle, certified, known, &mut worker.counts).nearest;
+                m.stage(Stage::Shade);
                 let question = self.question(m, scene, block);
                 let marked = m.to_bits(nearest.marked(m)) & wanted;
                 question.settle(
@@ -313,6 +321,7 @@ impl Seen {
             hits,
             counts: *counts,
         };
+        m.stage(Stage::Walk);
         walk(m, self.plan.walk, &slices, &mut meeting);
         *counts = meeting.counts;
         meeting.hits
@@ -456,17 +465,29 @@ struct Meeting<'a, M: Machine, H> {
 impl<M: Machine, H: Hits<M>> Visitor<M> for Meeting<'_, M, H> {
     #[inline(always)]
     fn visit(&mut self, slice: usize, j: i32, k: i32, live: bool) {
+        let m = self.m;
         let i = self.heading.slice_index(self.slices.count, slice);
         let [x, y, z] = self.stride;
-        let index = i * x + j.unsigned_abs() as usize * y + k.unsigned_abs() as usize * z;
+        let index = m.beside(
+            Chore::Cell,
+            #[inline(always)]
+            || i * x + j.unsigned_abs() as usize * y + k.unsigned_abs() as usize * z,
+        );
         self.counts.cells += u64::from(live);
         let grid = self.grid;
+        // The loop's branches are told as those of a loop that is passed by or ends with its question.
+        let mut site = Site::EmptyCell;
         grid.for_each_id(
             index,
             live,
             #[inline(always)]
-            |id| self.meet(id),
+            |id| {
+                m.branch(site == Site::NextId, site);
+                site = Site::NextId;
+                self.meet(id);
+            },
         );
+        m.branch(site == Site::EmptyCell, site);
     }
 
     #[inline(always)]
@@ -488,14 +509,28 @@ impl<M: Machine, H: Hits<M>> Meeting<'_, M, H> {
         let m = self.m;
         let sphere = &self.spheres[id as usize];
         self.counts.candidates += 1;
+        m.beside(
+            Chore::Sphere(id),
+            #[inline(always)]
+            || (),
+        );
         let center = self.heading.towards(sphere.f);
         if let Some(planes) = &self.planes {
             let center = [m.splat(center[0]), m.splat(center[1]), m.splat(center[2])];
+            m.stage(Stage::Cull);
             if planes.cull(m, center, m.splat(sphere.cull_radius)) {
                 self.counts.culled += 1;
+                m.stage(Stage::Walk);
                 return;
             }
         }
+        m.stage(Stage::Intersect);
+        m.beside(
+            Chore::Invariants,
+            #[inline(always)]
+            || (),
+        );
         self.hits.meet(m, sphere, center, id);
+        m.stage(Stage::Walk);
     }
 }

@@ -10,7 +10,7 @@
 
 use crate::double::{self, Answer};
 use crate::exact;
-use crate::machine::{LANES, Machine, three};
+use crate::machine::{Chore, LANES, Machine, Site, three};
 use crate::seen::Counts;
 use crate::shade::Surface;
 use crate::sphere::NONE;
@@ -89,6 +89,11 @@ impl<M: Machine> Owners<M> {
         let (mut owners, each) = (Self::none(m), m.to_array_i(numbers));
         while rest != 0 {
             let number = each[rest.trailing_zeros() as usize];
+            m.beside(
+                Chore::Owner,
+                #[inline(always)]
+                || (),
+            );
             let Owner { id, sphere, error } = owner(number);
             let same = same(m, numbers, number);
             let s = &mut owners.surface;
@@ -100,6 +105,7 @@ impl<M: Machine> Owners<M> {
             owners.error = m.select(same, m.splat(error), owners.error);
             owners.id = m.select_i(same, m.splat_i(id), owners.id);
             rest &= !m.to_bits(same);
+            m.branch(rest != 0, Site::NextOwner);
         }
         owners
     }

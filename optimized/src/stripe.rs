@@ -1,7 +1,7 @@
 //! Where a worker writes: a few rows of the image, which are its own, and from answers to pixels.
 
 use crate::camera::{BLOCK, spread};
-use crate::machine::{LANES, Machine, three};
+use crate::machine::{Chore, LANES, Machine, Stage, three};
 use crate::settle::{ALL, Answers};
 use crate::shade::shade;
 use crate::sphere::NONE;
@@ -76,17 +76,15 @@ impl<M: Machine> Painter<M> {
         wanted: u32,
         stripe: &mut Stripe<'_>,
     ) {
-        let [r, g, b] = three(
-            shade(m, self.eye, dir, self.light, answers.t, &answers.owners.surface),
+        m.stage(Stage::Shade);
+        let channels = shade(m, self.eye, dir, self.light, answers.t, &answers.owners.surface);
+        let colors = m.beside(
+            Chore::Pixels,
             #[inline(always)]
-            |channel| m.to_array_i(channel),
+            || pack(m, channels),
         );
-        let mut colors = [0; LANES];
-        for lane in 0..LANES {
-            colors[lane] = r[lane] | g[lane] << 8 | b[lane] << 16 | 255 << 24;
-        }
         let hit = m.lt_i(answers.owners.id, m.splat_i(NONE));
-        let colors = m.select_i(hit, m.lanes_i(colors), m.splat_i(self.background.cast_signed()));
+        let colors = m.select_i(hit, colors, m.splat_i(self.background.cast_signed()));
         let ids = m.select_i(hit, answers.owners.id, m.splat_i(MISS.cast_signed()));
         stripe.put(at, wanted, &m.to_array_i(ids), &m.to_array(answers.t), &m.to_array_i(colors));
     }
@@ -106,6 +104,21 @@ impl<M: Machine> Painter<M> {
         }
         stripe.columns.fill(NO_COLUMN);
     }
+}
+
+/// Rim: three channels of 0 to 255 and full opacity, a byte each.
+#[inline(always)]
+fn pack<M: Machine>(m: M, channels: [M::I; 3]) -> M::I {
+    let [r, g, b] = three(
+        channels,
+        #[inline(always)]
+        |channel| m.to_array_i(channel),
+    );
+    let mut colors = [0; LANES];
+    for lane in 0..LANES {
+        colors[lane] = r[lane] | g[lane] << 8 | b[lane] << 16 | 255 << 24;
+    }
+    m.lanes_i(colors)
 }
 
 impl Stripe<'_> {

@@ -20,7 +20,7 @@
 //! slice's distance. If spheres are listed by centre, which is up to w from P, then P must lie w before the end.
 
 use crate::frustum::Slices;
-use crate::machine::{Machine, Site, three};
+use crate::machine::{Chore, Machine, Site, three};
 use crate::plan::Loop;
 
 /// A slice and a cell of its rectangle, the same in all lanes.
@@ -65,15 +65,42 @@ pub fn walk<M: Machine>(m: M, walk: Loop, slices: &Slices, visitor: &mut impl Vi
 
 #[inline(always)]
 fn nested<M: Machine>(m: M, slices: &Slices, visitor: &mut impl Visitor<M>) {
-    for s in 0..slices.count {
-        for j in slices.first[0][s]..=slices.last[0][s] {
-            for k in slices.first[1][s]..=slices.last[1][s] {
-                visitor.visit(s, j, k, true);
-            }
+    let mut s = 0;
+    loop {
+        m.beside(
+            Chore::Rectangle,
+            #[inline(always)]
+            || (),
+        );
+        if !m.branch(slices.is_empty(s), Site::EmptySlice) {
+            rows(m, slices, s, visitor);
         }
-        if !m.again(visitor.unfinished(s), Site::Unfinished) {
+        if !m.branch(s + 1 < slices.count, Site::NextSlice)
+            || !m.again(visitor.unfinished(s), Site::Unfinished)
+        {
             return;
         }
+        s += 1;
+    }
+}
+
+/// The two inner loops, in a slice that has cells; each ends with its branch.
+#[inline(always)]
+fn rows<M: Machine>(m: M, slices: &Slices, s: usize, visitor: &mut impl Visitor<M>) {
+    let mut j = slices.first[0][s];
+    loop {
+        let mut k = slices.first[1][s];
+        loop {
+            visitor.visit(s, j, k, true);
+            if !m.branch(k < slices.last[1][s], Site::NextK) {
+                break;
+            }
+            k += 1;
+        }
+        if !m.branch(j < slices.last[0][s], Site::NextJ) {
+            return;
+        }
+        j += 1;
     }
 }
 
@@ -87,7 +114,7 @@ fn flattened<M: Machine>(m: M, slices: &Slices, visitor: &mut impl Visitor<M>) {
         let [s, j, k] = three(
             [at.slice, at.j, at.k],
             #[inline(always)]
-            |x| m.to_array_i(x)[0],
+            |x| m.first_i(x),
         );
         let s = s.unsigned_abs() as usize;
         visitor.visit(s, j, k, !slices.is_empty(s));
@@ -105,10 +132,14 @@ fn flattened<M: Machine>(m: M, slices: &Slices, visitor: &mut impl Visitor<M>) {
 #[inline(always)]
 fn rectangle<M: Machine>(m: M, slices: &Slices, slice: usize) -> Rectangle<M> {
     let ([first_j, first_k], [last_j, last_k]) = (&slices.first, &slices.last);
-    Rectangle {
-        first: [m.splat_i(first_j[slice]), m.splat_i(first_k[slice])],
-        last: [m.splat_i(last_j[slice]), m.splat_i(last_k[slice])],
-    }
+    m.beside(
+        Chore::Rectangle,
+        #[inline(always)]
+        || Rectangle {
+            first: [m.splat_i(first_j[slice]), m.splat_i(first_k[slice])],
+            last: [m.splat_i(last_j[slice]), m.splat_i(last_k[slice])],
+        },
+    )
 }
 
 /// Kernel: the successor of a cell, given its slice's rectangle and the next slice's. Straight-line: the three cases are

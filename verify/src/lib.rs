@@ -6,7 +6,7 @@
 //! the feature of that name). How: [`judge`] by bits and by error bounds and by an outside witness
 //! (`embree`, behind the feature of that name), [`visible`] from inside the grid
 //! tracer; a [`verdict`] is what they say. [`run`] does it all for one frame, [`bench`](mod@bench) says how
-//! fast; [`claims`], [`picture`] and [`report`] show it.
+//! fast, [`spu`] how fast on the paper's processor; [`claims`], [`picture`] and [`report`] show it.
 
 pub mod directed;
 pub mod matrix;
@@ -30,6 +30,8 @@ pub mod visible;
 pub mod run;
 
 pub mod bench;
+
+pub mod spu;
 
 pub mod claims;
 pub mod picture;

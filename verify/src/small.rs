@@ -59,7 +59,11 @@ impl Machine for Small {
     type F = [f32; LANES];
     type I = [i32; LANES];
     type B = [bool; LANES];
+    type Spu = optimized::host::Spu;
 
+    fn spu(self) -> Self::Spu {
+        optimized::host::Spu
+    }
     fn lanes(self, x: [f32; LANES]) -> Self::F {
         x
     }

@@ -113,6 +113,8 @@ impl Subject for Naive {
             Rounding::TextbookF64 => "naive-f64",
             Rounding::TextbookF32 => "naive-f32-textbook",
             Rounding::PerpendicularF32 => "naive-f32-perpendicular",
+            Rounding::TextbookSpu => "naive-spu-textbook",
+            Rounding::PerpendicularSpu => "naive-spu-perpendicular",
         }
     }
 
@@ -122,6 +124,10 @@ impl Subject for Naive {
             Rounding::TextbookF32 => "one loop over all spheres per ray, b² − ac in f32",
             Rounding::PerpendicularF32 => {
                 "one loop over all spheres per ray, distance of the centre from the ray in f32"
+            }
+            Rounding::TextbookSpu => "one loop over all spheres per ray, b² − ac in the SPU's f32",
+            Rounding::PerpendicularSpu => {
+                "one loop over all spheres per ray, distance of the centre from the ray in the SPU's f32"
             }
         }
     }

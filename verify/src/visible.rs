@@ -300,6 +300,66 @@ pub fn listing_is_complete(seen: &Seen, scene: &Scene) -> Result<Checked, String
     Ok(checked)
 }
 
+/// A grid's lists held against the balls themselves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Listed {
+    /// Ids in cells.
+    pub ids: u64,
+    /// Of these, spheres that have no point in the cell.
+    pub needless: u64,
+    /// Of these, ids that the cell lists more than once.
+    pub twice: u64,
+    /// Cells that hold a point of a sphere and do not list it.
+    pub missing: u64,
+}
+
+/// Counts what a grid lists in vain, twice, and not at all, sphere by sphere with its own radius.
+#[must_use]
+pub fn listed(grid: &Grid, scene: &Scene) -> Listed {
+    let (mut listed, strides) = (Listed::default(), grid.strides());
+    let mut lists: Vec<Vec<u32>> = Vec::new();
+    for cell in all_cells(grid) {
+        let index: usize = (0..3).map(|i| cell[i] * strides[i]).sum();
+        lists.resize(lists.len().max(index + 1), Vec::new());
+        grid.for_each_id(index, true, |id| lists[index].push(id));
+    }
+    for cell in all_cells(grid) {
+        let index: usize = (0..3).map(|i| cell[i] * strides[i]).sum();
+        let list = &mut lists[index];
+        listed.ids += list.len() as u64;
+        let before = list.len();
+        list.sort_unstable();
+        list.dedup();
+        listed.twice += (before - list.len()) as u64;
+        for &id in &*list {
+            let sphere = &scene.spheres()[id as usize];
+            listed.needless += u64::from(!meets(grid, cell, sphere.center, sphere.radius));
+        }
+    }
+    for (id, sphere) in (0..).zip(scene.spheres()) {
+        let range = |i: usize| {
+            let at = |x: f64| {
+                let inner = &grid.axes[i].planes[1..grid.axes[i].planes.len() - 1];
+                inner.iter().filter(|&&plane| f64::from(plane) <= x).count()
+            };
+            let (c, r) = (f64::from(sphere.center[i]), f64::from(sphere.radius));
+            // A cell more than f64 says on either side.
+            at(c - r).saturating_sub(1)..(at(c + r) + 2).min(grid.axes[i].planes.len() - 1)
+        };
+        for i in range(0) {
+            for j in range(1) {
+                for k in range(2) {
+                    let index: usize = (0..3).map(|axis| [i, j, k][axis] * strides[axis]).sum();
+                    let there = lists[index].binary_search(&id).is_ok();
+                    listed.missing +=
+                        u64::from(!there && meets(grid, [i, j, k], sphere.center, sphere.radius));
+                }
+            }
+        }
+    }
+    listed
+}
+
 /// A point times 2²⁹⁸.
 struct Point([IBig; 3]);
 

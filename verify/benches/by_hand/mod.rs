@@ -198,6 +198,12 @@ impl Machine for Avx2 {
     type F = [__m256; 2];
     type I = [__m256i; 2];
     type B = [__m256; 2];
+    type Spu = optimized::host::Spu;
+
+    #[inline(always)]
+    fn spu(self) -> Self::Spu {
+        optimized::host::Spu
+    }
 
     #[inline(always)]
     fn within<R>(self, work: impl FnOnce() -> R) -> R {

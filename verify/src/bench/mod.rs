@@ -29,7 +29,7 @@ pub mod curves;
 pub mod baseline;
 pub mod data;
 mod page;
-mod plot;
+pub(crate) mod plot;
 pub mod text;
 
 pub use curves::curves;

@@ -8,30 +8,30 @@ use std::fmt::Write;
 
 /// Of one line.
 #[derive(Clone, Debug)]
-pub(super) struct Series {
+pub(crate) struct Series {
     /// What stands at its end.
-    pub(super) label: String,
+    pub(crate) label: String,
     /// Its class in the page's style.
-    pub(super) class: &'static str,
+    pub(crate) class: &'static str,
     /// From left to right.
-    pub(super) points: Vec<[f64; 2]>,
+    pub(crate) points: Vec<[f64; 2]>,
 }
 
 /// Both axes: what they show, and how a value on them is written.
 #[derive(Clone, Copy)]
-pub(super) struct Axes<'a> {
+pub(crate) struct Axes<'a> {
     /// Under the horizontal one.
-    pub(super) x: &'static str,
+    pub(crate) x: &'static str,
     /// Over the vertical one.
-    pub(super) y: &'static str,
+    pub(crate) y: &'static str,
     /// A value on the horizontal one.
-    pub(super) x_word: &'a dyn Fn(f64) -> String,
+    pub(crate) x_word: &'a dyn Fn(f64) -> String,
     /// A value on the vertical one.
-    pub(super) y_word: fn(f64) -> String,
+    pub(crate) y_word: fn(f64) -> String,
     /// Whether the horizontal one is logarithmic, as the vertical one always is.
-    pub(super) logarithmic: bool,
+    pub(crate) logarithmic: bool,
     /// Whether a series' points are joined by a line.
-    pub(super) joined: bool,
+    pub(crate) joined: bool,
 }
 
 /// The picture, and the part of it that the axes enclose.
@@ -46,7 +46,7 @@ const APART: f64 = 15.0;
 
 /// The chart; `title` is what it is called by those who do not see it.
 #[must_use]
-pub(super) fn plot(title: &str, axes: Axes<'_>, series: &[Series]) -> Option<String> {
+pub(crate) fn plot(title: &str, axes: Axes<'_>, series: &[Series]) -> Option<String> {
     let all = || series.iter().flat_map(|series| &series.points).copied();
     let x = Scale::over(all().map(|[x, _]| x), [LEFT + 16.0, RIGHT], false, axes.logarithmic)?;
     let y = Scale::over(all().map(|[_, y]| y), [BOTTOM, TOP], true, true)?;
@@ -161,7 +161,7 @@ fn escaped(text: &str) -> String {
 
 /// A large number in few digits: 100, 10 k, 3.69 M.
 #[must_use]
-pub(super) fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     match value {
         v if v >= 1e6 => format!("{} M", trimmed(v / 1e6)),
         v if v >= 1e4 => format!("{} k", trimmed(v / 1e3)),

@@ -2,6 +2,7 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use contract::Size;
+use std::ops::Range;
 use std::path::PathBuf;
 use verify::scenes::frame::Framing;
 
@@ -34,6 +35,7 @@ Examples:
   cgt verify uniform:5000:1 own.pdb     a generated scene and a file
   cgt render sphereflake:4 flake.png --size 800x600
   cgt bench 1hvr --peers embree --threads 1
+  cgt spu 1hvr                          cycles on a PlayStation 3, stage by stage
   cgt scenes                            what can be named";
 
 #[derive(Debug, Subcommand)]
@@ -45,6 +47,8 @@ pub(crate) enum Command {
     #[allow(clippy::doc_markdown, reason = "shown to people as it stands")]
     /// Render one scene to a PNG or OpenEXR file
     Render(Render),
+    /// Count the cycles of the PlayStation 3's processor: by stage, with mispredicts, memory and what each trick saves
+    Spu(Spu),
     /// List the scenes that have names, and the formats that are read
     Scenes,
 }
@@ -138,6 +142,51 @@ pub(crate) struct Bench {
     /// How much slower a scene may be than in the baseline, in per cent
     #[arg(long, value_name = "PERCENT", default_value_t = 10.0, value_parser = percent)]
     pub(crate) tolerance: f64,
+    #[command(flatten)]
+    pub(crate) view: View,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Spu {
+    /// Scenes, as for `verify` [default: 1hvr; with --claims 1hvr, adk, sphereflake:3 and :4, and 500 to 4000 random spheres]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// Plan of the grid tracer
+    #[arg(long, value_name = "NAME", value_parser = ["paper", "safe"], default_value = "paper")]
+    pub(crate) plan: String,
+    /// Cells of the grid on each axis, 1 to 64 [default: the plan's: 16 for `paper`, chosen for the scene for `safe`]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(1..=64))]
+    pub(crate) grid: Option<u8>,
+    /// Frames of an animation, from and to, counted from 0, the last one not among them
+    #[arg(long, value_name = "A..B", value_parser = range, conflicts_with = "frame")]
+    pub(crate) frames: Option<Range<usize>>,
+    /// Trace one of so many blocks; they stand for all
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=1000))]
+    pub(crate) sample: u32,
+    /// Measure scenes that do not fit into the local store as if they did, instead of refusing them
+    #[arg(long)]
+    pub(crate) unlimited: bool,
+    /// Show how many spheres fit beside which grid, and measure nothing
+    #[arg(long, conflicts_with_all = ["claims", "curves", "json", "frames"])]
+    pub(crate) capacity: bool,
+    /// Hold each of the paper's claims against what was measured; implies --unlimited
+    #[arg(long)]
+    pub(crate) claims: bool,
+    /// Also measure over scene size and grid size, for the page spu.html in --out
+    #[arg(long, requires = "out")]
+    pub(crate) curves: bool,
+    /// Also count mispredicts on this computer: simulated by Valgrind, and by the processor's counters
+    #[arg(long)]
+    pub(crate) host: bool,
+    /// File for all that was found, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Folder for a page that opens offline, spu.html, with the same data in spu.json beside it
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+    /// Walk so many times by that loop and print the cells: what --host counts
+    #[arg(long, hide = true, value_name = "LOOP:LEVEL:WALKS")]
+    pub(crate) walk: Option<String>,
     #[command(flatten)]
     pub(crate) view: View,
 }
@@ -239,6 +288,13 @@ fn size(text: &str) -> Result<Size, String> {
     let number = |text: &str| text.parse::<u32>().map_err(|e| format!("`{text}`: {e}"));
     let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, as 1280x720")?;
     Size::new(number(width)?, number(height)?).map_err(|e| e.to_string())
+}
+
+fn range(text: &str) -> Result<Range<usize>, String> {
+    let (from, to) = text.split_once("..").ok_or("expected A..B, as 0..10")?;
+    let number = |text: &str| text.parse::<usize>().map_err(|e| format!("`{text}`: {e}"));
+    let range = number(from)?..number(to)?;
+    if range.is_empty() { Err(format!("{text} has no frame")) } else { Ok(range) }
 }
 
 fn seconds(text: &str) -> Result<f64, String> {

@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Some(Command::Verify(args)) => cmd::verify::verify(&args),
         Some(Command::Render(args)) => cmd::render::render(&args),
         Some(Command::Bench(args)) => cmd::bench::run(&args),
+        Some(Command::Spu(args)) => cmd::spu::run(&args),
         Some(Command::Scenes) => cmd::scenes::scenes(),
     };
     outcome.unwrap_or_else(|failure| {

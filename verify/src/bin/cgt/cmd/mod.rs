@@ -3,4 +3,5 @@
 pub(crate) mod bench;
 pub(crate) mod render;
 pub(crate) mod scenes;
+pub(crate) mod spu;
 pub(crate) mod verify;
