@@ -4,11 +4,14 @@
 //! `CGT_SPU_PAIRS` says, are directed at what differs from IEEE 754: zeros of both signs, subnormal patterns, powers of two with their neighbours,
 //! the last exponents, and sums that nearly cancel. Each machine is told apart from IEEE 754 by how often it differs.
 
-use optimized::Level;
+use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use optimized::host::{Scalar, Spu, Work};
 use optimized::machine::{LANES, Machine};
+use optimized::plan::{Plan, Voxelizer};
+use optimized::{Form, Level, Tracer};
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
+use reference::Arithmetic;
 use reference::spu::Spu as Naive;
 use std::sync::atomic::{AtomicU64, Ordering};
 use verify::seed::{count, generator, seed};
@@ -162,4 +165,64 @@ fn one_operand_is_exhausted() {
     let judged = judged.into_inner();
     println!("{judged} of 2^32 patterns, seed {seed}");
     assert!(step > 1 || judged == 1 << 32, "{judged} of 2^32 patterns");
+}
+
+/// A picture of the optimized tracer in the SPU's arithmetic is that of the reference's loop, whatever the way to the spheres.
+#[test]
+fn pictures_are_those_of_the_reference() {
+    let seed = seed();
+    let voxelizers = [Voxelizer::BoxRange, Voxelizer::Overlap, Voxelizer::ByCenter, Voxelizer::EightCorners];
+    let (scenes, hits, other) = (count("CGT_SPU_SCENES", 48), AtomicU64::new(0), AtomicU64::new(0));
+    (0..scenes).into_par_iter().for_each(|k| {
+        let mut rng = generator(seed, k);
+        // From within to so far that rounding alone decides; every fourth scene has each sphere twice.
+        let (far, size) = (2f32.powf(rng.random_range(-1.0..12.0)), Size::new(21, 13).expect("small"));
+        let sphere = |rng: &mut _| Sphere {
+            center: std::array::from_fn(|i| {
+                RngExt::random_range(rng, -1.0f32..1.0) + if i == 2 { far } else { 0.0 }
+            }),
+            radius: RngExt::random_range(rng, 0.02f32..0.4),
+            color: [RngExt::random(rng), 100, 200],
+        };
+        let mut spheres: Vec<Sphere> = (0..25).map(|_| sphere(&mut rng)).collect();
+        if k % 4 == 0 {
+            spheres.extend_from_within(..);
+        }
+        let scene = Scene::new(spheres, [3, 2, 1], DEFAULT_LIGHT).expect("valid");
+        let (w, h) = (2.4 / far.max(1.0) / 21.0, 2.4 / far.max(1.0) / 13.0);
+        let camera = Camera::new([0.0; 3], [-10.5 * w, -6.5 * h, 1.0], [w, 0.0, 0.0], [0.0, h, 0.0], size);
+        let camera = camera.expect("not degenerate");
+        let pixels = |image: &Image| -> Vec<_> {
+            let t = image.t.iter().map(|t| t.to_bits());
+            image.ids.iter().copied().zip(t).zip(image.rgba.iter().copied()).collect()
+        };
+        for (form, naive, ieee) in [
+            (Form::Textbook, Arithmetic::SpuTextbook, Arithmetic::F32Textbook),
+            (Form::Perpendicular, Arithmetic::SpuPerpendicular, Arithmetic::F32Perpendicular),
+        ] {
+            let by = |naive| {
+                reference::Tracer::new(naive).threads(1).render(&scene, &camera).expect("small").image
+            };
+            let (truth, ieee) = (by(naive), by(ieee));
+            hits.fetch_add(truth.ids.iter().filter(|id| **id != MISS).count() as u64, Ordering::Relaxed);
+            let differs = pixels(&truth).iter().zip(pixels(&ieee)).filter(|(x, y)| **x != *y).count();
+            other.fetch_add(differs as u64, Ordering::Relaxed);
+            for voxelizer in voxelizers {
+                let plan =
+                    Plan { voxelizer, arithmetic: optimized::plan::Arithmetic::Spu(form), ..Plan::safe() };
+                for level in Level::available() {
+                    let image = Tracer::new(plan, level).render(&scene, &camera).expect("a picture").image;
+                    for (i, (out, wanted)) in pixels(&image).into_iter().zip(pixels(&truth)).enumerate() {
+                        assert_eq!(
+                            out, wanted,
+                            "pixel {i}, {level}, {plan}, far {far}, scene {k}, seed {seed}"
+                        );
+                    }
+                }
+            }
+        }
+    });
+    let (hits, other) = (hits.into_inner(), other.into_inner());
+    println!("{scenes} scenes, seed {seed}: {hits} hits, {other} pixels are not those of IEEE 754");
+    assert!(hits > 20 * scenes && other > 10 * scenes, "too little at stake: {hits} hits, {other} different");
 }

@@ -31,10 +31,11 @@
 //! |P − c|² <= r² + 21u (F² + r²) + 40u (F + r) S + (20u (F + r))². We take **R² = r² + 64u (F + r)²**. At
 //! F = 2,000 r that is R = 4 r: the textbook form really does report hits that far out.
 //!
-//! *On the SPU* (contract, rule 6) an operation is off by less than 2u of its result, division by less than 4u and the root by less than
-//! 6u (measured by `tests/spu_values.rs`). In the derivations division and root stand once on a path, so all terms are less
-//! than four times as large with 2u counted twice for them: we take **256u in place of 64u**. What is lost below 2⁻¹²⁶ moves P by less than
-//! 2⁻⁴³ under the root of D w, which 256u r exceeds for radii from 2⁻²⁰; [`in_range`] asks for that.
+//! *On the SPU* (contract, rule 6) an operation is off by less than 2u of its result, and so are division and root where nothing is lost below
+//! 2⁻¹²⁶ (`tests/spu_values.rs`: at most one unit in the last place below the result cut off, hence 4u). In the derivations division and root
+//! stand once on a path, so no term is more than four times as large: we take **256u in place of 64u**. Of a number below 2⁻⁷⁹ the
+//! root is off by up to 2⁻¹² of itself, for its remainder is lost: D w or D/a is below 2⁻⁷⁹ then, and P moves by less than 2⁻¹² 2⁻³⁹
+//! 2²⁰ = 2⁻³¹, which 256u r exceeds for radii from 2⁻¹⁴; [`in_range`] asks for that.
 //!
 //! *Certified.* The hit is the true one, whose point is on the surface: **R = r**. Its P is that of the true root, not of the
 //! rounded t; the walk's early end goes by an upper bound of the root, below which no visited slice is missing.
@@ -79,6 +80,9 @@ pub fn reach(margins: Margins, arithmetic: Arithmetic, f: [f32; 3], radius: f32)
 /// The farthest position.
 const FARTHEST: f32 = (1u32 << 30) as f32;
 
+/// The least radius on the SPU.
+const LEAST_ON_SPU: f32 = 1.0 / (1u32 << 14) as f32;
+
 /// Whether the derivation above holds for a sphere, with a camera that is in range.
 #[must_use]
 pub fn sphere_in_range(sphere: &Sphere) -> bool {
@@ -99,8 +103,7 @@ pub fn in_range(arithmetic: Arithmetic, spheres: &[Sphere], camera: &Camera) -> 
         && shortest >= 1.0 / million
         && longest <= million
         && spheres.iter().all(sphere_in_range)
-        && (!matches!(arithmetic, Arithmetic::Spu(_))
-            || spheres.iter().all(|s| f64::from(s.radius) >= 1.0 / million))
+        && (!matches!(arithmetic, Arithmetic::Spu(_)) || spheres.iter().all(|s| s.radius >= LEAST_ON_SPU))
 }
 
 /// Lower and upper bounds of |d| over all pixels: the distance of the picture's plane from the eye, and the

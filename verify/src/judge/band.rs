@@ -19,7 +19,7 @@
 //!   from t = 2⁻¹²⁶ on, the least that is not flushed to zero.
 //!
 //! - *On the SPU* (contract, rule 6) every operation is off by less than 8u of its result, since a division is by less than 4u, a root
-//!   by less than 6u and any other by less than 2u: both forms with 8u in place of u.
+//!   by less than 4u and any other by less than 2u: both forms with 8u in place of u.
 //!
 //! Terms of second order and v are covered by 2 % on top. A t that fits f32 is then rounded once more.
 //! Nothing is stated where f32 could over- or underflow on the way.
@@ -45,10 +45,10 @@ pub fn band(rounding: Rounding, ray: &Ray, sphere: &Sphere) -> Option<Band> {
         Rounding::TextbookF64 => Some(geometry.textbook(V)),
         Rounding::TextbookF32 => geometry.in_range(GRADUAL).then(|| geometry.textbook(U)),
         Rounding::PerpendicularF32 => geometry.in_range(GRADUAL).then(|| geometry.perpendicular(&NAIVE)),
-        Rounding::TextbookSpu => geometry.in_range(FLUSHED).then(|| geometry.textbook(ON_SPU)),
+        Rounding::TextbookSpu => geometry.in_range(REMAINS).then(|| geometry.textbook(ON_SPU)),
         Rounding::PerpendicularSpu => {
             let form = Perpendicular { unit: ON_SPU, ..NAIVE };
-            geometry.in_range(FLUSHED).then(|| geometry.perpendicular(&form))
+            geometry.in_range(REMAINS).then(|| geometry.perpendicular(&form))
         }
     }
 }
@@ -66,6 +66,9 @@ const V: f64 = 1.0 / (1u64 << 53) as f64;
 /// 2⁴⁰ times the least f32, and 2⁴⁰ times the least that is not flushed to zero.
 const GRADUAL: f64 = f64::from_bits((1023 - 109) << 52);
 const FLUSHED: f64 = f64::from_bits((1023 - 86) << 52);
+/// Above this the SPU's roots lose no remainder that counts: below 2⁻⁷⁹ they are off by 2⁻¹² of themselves, which then is less than what
+/// 8u of the other terms make of D.
+const REMAINS: f64 = f64::from_bits((1023 - 60) << 52);
 
 /// What tells the perpendicular forms apart: u, and in u the errors of h and √(D w), and the second-order term of |l|².
 struct Perpendicular {
