@@ -17,11 +17,15 @@ const FACTOR: f64 = 1.8;
 /// Distance in radii; textbook rays wrong, in percent; its median error of t, in radii; textbook rays wrong where results
 /// are cut off, as on the SPU; most perpendicular rays wrong, in percent (10 times the figure measured then: that was 2 to
 /// 6 rays of 200,000).
-const ROWS: [(f64, f64, f64, f64, f64); 4] = [
-    (100.0, 0.023, 4e-4, 0.024, 0.003),
-    (1000.0, 2.2, 3e-2, 3.0, 0.01),
-    (2000.0, 9.2, 0.13, 11.7, 0.03),
-    (4100.0, 27.7, 0.9, 61.9, 0.03),
+///
+/// Of results cut off the last figure was 61.9 then, which does not come out: it is printed, and not judged. Beyond 4,096 radii
+/// r² is less than the last place of |f|², and what is left of it depends on details of that arithmetic that are not known
+/// (with sums of products and b² − a q fused it was 34, not fused 24).
+const ROWS: [(f64, f64, f64, Option<f64>, f64); 4] = [
+    (100.0, 0.023, 4e-4, Some(0.024), 0.003),
+    (1000.0, 2.2, 3e-2, Some(3.0), 0.01),
+    (2000.0, 9.2, 0.13, Some(11.7), 0.03),
+    (4100.0, 27.7, 0.9, None, 0.03),
 ];
 
 #[test]
@@ -44,7 +48,7 @@ fn forms_fail_as_measured() {
             "{distance} radii: textbook {textbook_is:.3} % wrong (then {wrong} %), median error of t {median_is:.1e} radii (then {median:.0e}), perpendicular {perpendicular_is:.4} % wrong"
         );
         eprintln!(
-            "on the SPU: textbook {cut_off_is:.3} % (then {cut_off} %), perpendicular {spu_perpendicular_is:.4} %"
+            "on the SPU: textbook {cut_off_is:.3} % (then {cut_off:?}), perpendicular {spu_perpendicular_is:.4} %"
         );
         let near = |is: f64, then: f64| (then / FACTOR..=then * FACTOR).contains(&is);
         assert!(
@@ -52,11 +56,15 @@ fn forms_fail_as_measured() {
             "textbook at {distance}: {textbook_is} % wrong, expected {wrong} %"
         );
         assert!(
-            near(cut_off_is, cut_off),
-            "textbook of the SPU at {distance}: {cut_off_is} % wrong, expected {cut_off} %"
+            cut_off.is_none_or(|then| near(cut_off_is, then)),
+            "textbook of the SPU at {distance}: {cut_off_is} % wrong, expected {cut_off:?}"
         );
         assert!(near(median_is, median), "textbook at {distance}: median {median_is}, expected {median}");
         assert!(perpendicular_is <= perpendicular, "perpendicular at {distance}: {perpendicular_is} % wrong");
+        assert!(
+            spu_perpendicular_is <= perpendicular,
+            "perpendicular of the SPU at {distance}: {spu_perpendicular_is} % wrong"
+        );
     }
 }
 
