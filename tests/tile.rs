@@ -372,7 +372,7 @@ fn a_grid_lists_every_sphere_once_whoever_builds_it() {
             );
         }
         assert!(place.iter().all(Option::is_some), "a sphere is nowhere, seed {seed}");
-        println!("{n} spheres, {} cells, {} large", rows.len(), large.len());
+        eprintln!("{n} spheres, {} cells, {} large", rows.len(), large.len());
     }
 }
 

@@ -193,8 +193,8 @@ impl Machine for Spu {
     #[inline(always)]
     fn to_bits(self, x: Self::B) -> u32 {
         let mut bits = 0;
-        for i in 0..LANES {
-            bits |= u32::from(x[i]) << i;
+        for (i, x) in x.into_iter().enumerate() {
+            bits |= u32::from(x) << i;
         }
         bits
     }
@@ -375,16 +375,16 @@ impl Machine for Spu {
     #[inline(never)]
     fn smallest(self, x: Self::F) -> Self::F {
         let mut least = x[0];
-        for i in 1..LANES {
-            least = if number(x[i]) < number(least) { x[i] } else { least };
+        for x in x {
+            least = if number(x) < number(least) { x } else { least };
         }
         [least; LANES]
     }
     #[inline(never)]
     fn largest(self, x: Self::F) -> Self::F {
         let mut most = x[0];
-        for i in 1..LANES {
-            most = if number(x[i]) > number(most) { x[i] } else { most };
+        for x in x {
+            most = if number(x) > number(most) { x } else { most };
         }
         [most; LANES]
     }
