@@ -119,7 +119,7 @@ const ROWS: [Row; 19] = [
     (
         "Flattening the loop makes a frame faster there",
         Evidence::Refuted,
-        "one mispredict a traversal, and still 1.1 to 1.3 times the cycles of nested loops with hints, on all eight scenes",
+        "one mispredict a traversal, and still 1.1 to 1.4 times the cycles of nested loops with hints, on all eight scenes",
         "cargo run --release -- spu --claims",
     ),
 ];
