@@ -103,7 +103,7 @@ fn numbers_agree_with_each_other_and_files_are_whole() {
     assert_eq!(bench, json(&desk.path().join("folder/bench.json")));
     assert_eq!(
         (&bench["schema_version"], &bench["kind"], &bench["plan"]),
-        (&1.into(), &"bench".into(), &"fast".into())
+        (&2.into(), &"bench".into(), &"fast".into())
     );
     for field in ["program", "target", "simd", "rustc", "date", "command_line"] {
         assert!(bench["environment"][field].as_str().is_some_and(|text| !text.is_empty()), "{field}");
