@@ -226,3 +226,26 @@ fn pictures_are_those_of_the_reference() {
     eprintln!("{scenes} scenes, seed {seed}: {hits} hits, {other} pixels are not those of IEEE 754");
     assert!(hits > 20 * scenes && other > 10 * scenes, "too little at stake: {hits} hits, {other} different");
 }
+
+/// Directions that are zero on the SPU and not in IEEE 754 hit nothing, even from within a sphere.
+#[test]
+fn directions_that_are_zero_on_the_spu_hit_nothing() {
+    let sphere = Sphere { center: [0.5, 0.0, 0.0], radius: 2.0, color: [200; 3] };
+    let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(5, 5).expect("small");
+    let tiny = f32::MIN_POSITIVE / 64.0;
+    let camera =
+        Camera::new([0.0; 3], [-tiny, -tiny, tiny], [tiny / 4.0, 0.0, 0.0], [0.0, tiny / 4.0, 0.0], size);
+    let camera = camera.expect("not degenerate");
+    for (form, naive) in
+        [(Form::Textbook, Arithmetic::SpuTextbook), (Form::Perpendicular, Arithmetic::SpuPerpendicular)]
+    {
+        let naive = reference::Tracer::new(naive).threads(1).render(&scene, &camera).expect("small").image;
+        assert_eq!(naive.ids, [MISS; 25], "{form:?}, reference");
+        let plan = Plan { arithmetic: optimized::plan::Arithmetic::Spu(form), ..Plan::safe() };
+        for level in Level::available() {
+            let image = Tracer::new(plan, level).render(&scene, &camera).expect("a picture").image;
+            assert_eq!(image.ids, [MISS; 25], "{form:?}, {level}");
+        }
+    }
+}

@@ -31,11 +31,12 @@
 //! |P − c|² <= r² + 21u (F² + r²) + 40u (F + r) S + (20u (F + r))². We take **R² = r² + 64u (F + r)²**. At
 //! F = 2,000 r that is R = 4 r: the textbook form really does report hits that far out.
 //!
-//! *On the SPU* (contract, rule 6) an operation is off by less than 2u of its result, and so are division and root where nothing is lost below
-//! 2⁻¹²⁶ (`tests/spu_values.rs`: at most one unit in the last place below the result cut off, hence 4u). In the derivations division and root
+//! *On the SPU* (contract, rule 6) an operation is off by less than 2u of its result, division and root by less than 4u where nothing is
+//! lost below 2⁻¹²⁶ (`tests/spu_values.rs`: they are the result cut off, or one unit in the last place below). In the derivations division and root
 //! stand once on a path, so no term is more than four times as large: we take **256u in place of 64u**. Of a number below 2⁻⁷⁹ the
 //! root is off by up to 2⁻¹² of itself, for its remainder is lost: D w or D/a is below 2⁻⁷⁹ then, and P moves by less than 2⁻¹² 2⁻³⁹
-//! 2²⁰ = 2⁻³¹, which 256u r exceeds for radii from 2⁻¹⁴; [`in_range`] asks for that.
+//! 2²⁰ = 2⁻³¹, which 256u r exceeds for radii from 2⁻¹⁴; [`in_range`] asks for that. A quotient of a number below 2⁻⁷⁹ is off by as much of
+//! itself; it is t then, and moves P by less than 2⁻¹² 2⁻⁷⁹ 2²⁰.
 //!
 //! *Certified.* The hit is the true one, whose point is on the surface: **R = r**. Its P is that of the true root, not of the
 //! rounded t; the walk's early end goes by an upper bound of the root, below which no visited slice is missing.

@@ -243,7 +243,14 @@ impl Seen {
                 let (block, nearest) = (&Block::new(s, dir), Nearest::none(s));
                 let on_spu = OnSpu { form, block, bundle, spheres: &self.on_spu, nearest };
                 let nearest = self.meet_all(m, bundle, on_spu, known, &mut worker.counts).nearest;
-                let (t, id) = (s.to_array(nearest.t), s.to_array_i(nearest.id));
+                // A direction may be zero on the SPU that is not so in IEEE 754.
+                let mut moves = s.lt(s.splat(0.0), s.splat(0.0));
+                for d in dir {
+                    moves = s.or(moves, s.or(s.lt(d, s.splat(0.0)), s.lt(s.splat(0.0), d)));
+                }
+                let none = Nearest::none(s);
+                let t = s.to_array(s.select(moves, nearest.t, none.t));
+                let id = s.to_array_i(s.select_i(moves, nearest.id, none.id));
                 Answers::new(m, m.lanes(t), m.lanes_i(id), scene)
             }
             Arithmetic::Certified => {

@@ -114,7 +114,8 @@
 //! - `div(x, y)`: `w = fi(y, frest(y)); q = mul(x, w); fma(fnms(q, y, x), w, q)`.
 //! - `sqrt(x)`: `w = fi(x, frsqest(x)); g = mul(x, w); fma(fnms(g, g, x), mul(w, 0.5), g)`.
 //!
-//! Of the ending of rule 5 t is a hit only if it is 2¹²⁸ (the pattern of +∞) or less as such a number. A direction that is zero hits nothing. The eye, centres, radii and
+//! Of the ending of rule 5 t is a hit only if it is 2¹²⁸ (the pattern of +∞) or less as such a number. A direction whose three
+//! components are zeros as such numbers hits nothing. The eye, centres, radii and
 //! directions are taken as patterns; t is one too. Rules 1 and 4 stay in IEEE 754.
 //!
 //! # What is refused

@@ -19,7 +19,8 @@
 //!   from t = 2⁻¹²⁶ on, the least that is not flushed to zero.
 //!
 //! - *On the SPU* (contract, rule 6) every operation is off by less than 8u of its result, since a division is by less than 4u, a root
-//!   by less than 4u and any other by less than 2u: both forms with 8u in place of u.
+//!   by less than 4u and any other by less than 2u: both forms with 8u in place of u. What is lost of quotients below 2⁻⁷⁹ is less than
+//!   what is put on for b.
 //!
 //! Terms of second order and v are covered by 2 % on top. A t that fits f32 is then rounded once more.
 //! Nothing is stated where f32 could over- or underflow on the way.
