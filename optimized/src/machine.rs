@@ -214,7 +214,8 @@ pub trait Machine: Copy {
     /// The largest lane, in every lane. No lane may be NaN. If both zeros are largest, either is given.
     fn largest(self, x: Self::F) -> Self::F;
 
-    /// Door: is any lane yes? Mostly not, so not taken is the likely way.
+    /// Door: is any lane yes? A machine without a hint takes not taken for the likely way; which one is likely differs from site to
+    /// site (`cgt spu` counts them).
     fn any(self, x: Self::B, site: Site) -> bool;
 
     /// Door: go round the loop again, since any lane says so? Mostly yes, so taken is the likely way.
