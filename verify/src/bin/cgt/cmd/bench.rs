@@ -1,5 +1,6 @@
 //! `cgt bench`: scenes in, times on the terminal and into files out.
 
+use super::files;
 use super::verify::{load, warn};
 use crate::args::{Bench as Args, default_scenes};
 use crate::environment::environment;
@@ -16,7 +17,7 @@ use verify::bench::text::text;
 use verify::bench::{
     Bench, Effort, Field, Input, Outsider, SceneBench, Setting, Summary, bench, curves, page,
 };
-use verify::picture::{check_folder, write_atomically};
+use verify::picture::check_folder;
 use verify::report::Absent;
 use verify::seed::seed;
 use verify::subject::NamedPlan;
@@ -63,7 +64,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if let Some(text) = baseline {
         report.baseline = Some(Held { tolerance: args.tolerance / 100.0, steps: compare(&text, &report)? });
     }
-    write(args, &report)?;
+    files::write("bench", (args.json.as_deref(), args.out.as_deref()), &report, page)?;
     say(&text(&report, std::io::stdout().is_terminal()))?;
     if let Some(folder) = &args.out {
         say(&format!("page: {}\n", folder.join("bench.html").display()))?;
@@ -123,19 +124,4 @@ fn asked(args: &Args, scene: &str, setting: &Setting<'_>) -> Asked {
 
 fn bar(word: &str) -> impl Fn(&str, u32) -> Box<dyn Fn() + Sync> {
     move |what, steps| progress::bar(word, what, steps)
-}
-
-fn write(args: &Args, report: &Bench) -> Result<(), Failure> {
-    let json = serde_json::to_string_pretty(report)? + "\n";
-    if let Some(file) = &args.json {
-        write_atomically(file, json.as_bytes())?;
-    }
-    if let Some(folder) = &args.out {
-        let page = page(report)?;
-        std::fs::create_dir_all(folder)
-            .map_err(|error| format!("the folder `{}`: {error}", folder.display()))?;
-        write_atomically(&folder.join("bench.json"), json.as_bytes())?;
-        write_atomically(&folder.join("bench.html"), page.as_bytes())?;
-    }
-    Ok(())
 }

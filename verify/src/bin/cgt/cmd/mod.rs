@@ -1,6 +1,7 @@
 //! The subcommands.
 
 pub(crate) mod bench;
+mod files;
 pub(crate) mod render;
 pub(crate) mod scenes;
 pub(crate) mod spu;

@@ -1,5 +1,6 @@
 //! `cgt spu`: scenes in, what they would cost on a PlayStation 3 on the terminal and into files out.
 
+use super::files;
 use super::verify::{load, warn};
 use crate::args::Spu as Args;
 use crate::environment::environment;
@@ -9,7 +10,7 @@ use optimized::camera::BLOCK;
 use optimized::plan::Resolution;
 use std::path::Path;
 use std::process::ExitCode;
-use verify::picture::{check_folder, write_atomically};
+use verify::picture::check_folder;
 use verify::scenes::catalogue::DEFAULT;
 use verify::seed::seed;
 use verify::spu::claims::{self, claims};
@@ -71,24 +72,11 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     environment.seed = Some(seed);
     let report =
         Report { schema_version: SCHEMA_VERSION, kind: "spu", environment, surveys, claims, curves, host };
-    write(args, &report)?;
-    Ok(ExitCode::SUCCESS)
-}
-
-fn write(args: &Args, report: &Report) -> Result<(), Failure> {
-    let json = serde_json::to_string_pretty(report)? + "\n";
-    if let Some(file) = &args.json {
-        write_atomically(file, json.as_bytes())?;
-    }
+    files::write("spu", (args.json.as_deref(), args.out.as_deref()), &report, page)?;
     if let Some(folder) = &args.out {
-        let page = page(report)?;
-        std::fs::create_dir_all(folder)
-            .map_err(|error| format!("the folder `{}`: {error}", folder.display()))?;
-        write_atomically(&folder.join("spu.json"), json.as_bytes())?;
-        write_atomically(&folder.join("spu.html"), page.as_bytes())?;
         say(&format!("page: {}\n", folder.join("spu.html").display()))?;
     }
-    Ok(())
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Blocks of which one is traced for a point of a curve, if --sample does not pass over more.
