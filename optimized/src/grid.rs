@@ -38,8 +38,10 @@ const WIDER: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
 pub struct Axis {
     /// Cells.
     pub n: i32,
-    origin: f32,
-    inverse: f32,
+    /// Where cell 0 begins.
+    pub origin: f32,
+    /// Cells to a unit of length.
+    pub inverse: f32,
     /// n + 1 numbers: the least f32 of each cell, then the upper end of the grid.
     pub planes: Vec<f32>,
 }

@@ -27,7 +27,7 @@ pub struct Queue([u32; WORDS]);
 
 /// A queue in each lane.
 #[derive(Clone, Copy)]
-pub struct Queues<M: Machine>([M::I; WORDS]);
+pub struct Queues<M: Machine>(pub [M::I; WORDS]);
 
 impl Queue {
     /// No ids.

@@ -27,6 +27,8 @@ pub mod judge;
 pub mod verdict;
 pub mod visible;
 
+pub mod prove;
+
 pub mod run;
 
 pub mod bench;
