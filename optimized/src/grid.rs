@@ -30,9 +30,6 @@ const DENSITY: f64 = 4.0;
 /// The same for tiles, whose cells are to hold about a row of lanes: measured, see [`crate::tile`].
 const TILE_DENSITY: f64 = 1.0 / 32.0;
 
-/// 1 + 2⁻²⁰: what is added to the largest reach covers the roundings of the distances it is compared with.
-const WIDER: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
-
 /// One axis of the grid.
 #[derive(Clone, Debug)]
 pub struct Axis {
@@ -194,8 +191,11 @@ impl Grid {
         let by_center = plan.voxelizer == Voxelizer::ByCenter;
         let boxes: Vec<Bounds> =
             balls.iter().map(|ball| if by_center { ball.point() } else { *ball }).collect();
-        let widen =
-            if by_center { WIDER * balls.iter().map(|ball| ball.radius).fold(0.0, f32::max) } else { 0.0 };
+        let widen = if by_center {
+            widen(m.unit(), balls.iter().map(|ball| ball.radius).fold(0.0, f32::max))
+        } else {
+            0.0
+        };
         let whole = whole(&boxes);
         let widest = balls.iter().map(|ball| f64::from(ball.radius)).fold(0.0, f64::max) * 2.001;
         let mut n = resolution(&plan, &whole, DENSITY * balls.len() as f64, widest)?;
@@ -258,7 +258,7 @@ impl Grid {
         let mut bins = std::mem::take(&mut memory.bins);
         bins.fill(m, &axes, spheres, large_from, &mut memory.places, crew);
         let Bins { offsets, ids, large, radius } = bins;
-        Ok(Self { axes, widen: WIDER * radius, large, storage: Storage::Lists { offsets, ids } })
+        Ok(Self { axes, widen: widen(m.unit(), radius), large, storage: Storage::Lists { offsets, ids } })
     }
 
     /// Calls `visit` with each id of a cell. `live` = no makes every cell empty.
@@ -429,6 +429,13 @@ fn cell_boxes<M: Machine>(
     let hi = [0, 1, 2].map(|i| corner(i, |b| b.hi));
     (0..chunk.len())
         .map(move |lane| CellBox { lo: [0, 1, 2].map(|i| lo[i][lane]), hi: [0, 1, 2].map(|i| hi[i][lane]) })
+}
+
+/// How far around the rays of a packet cells list what they hit, where spheres are listed by centre: the largest reach, and 16u of it for the
+/// roundings of the distances it is compared with.
+#[must_use]
+pub fn widen(unit: f32, reach: f32) -> f32 {
+    (1.0 + 16.0 * unit) * reach
 }
 
 /// The box around all boxes.

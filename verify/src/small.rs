@@ -64,6 +64,10 @@ impl Machine for Small {
     fn spu(self) -> Self::Spu {
         optimized::host::Spu
     }
+    #[allow(clippy::cast_possible_truncation, reason = "a power of two")]
+    fn unit(self) -> f32 {
+        Self::unit(self) as f32
+    }
     fn lanes(self, x: [f32; LANES]) -> Self::F {
         x
     }
