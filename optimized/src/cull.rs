@@ -5,8 +5,8 @@
 //! an unnormalised normal of length N = √(1 + slope²), so that a ball of radius R around (A, Y, Z) has a point inside
 //! if and only if Y − lo_Y A >= −R N, and so on. Four planes are four lanes.
 //!
-//! *Margin.* u is the machine's unit roundoff. The reported point P lies in the frustum up to the rounding of the slopes, u |A_P| with A_P <= A + R, and
-//! within R of the centre. The signed distance is computed with at most 5u (|Y| + |A|) of error (u from the centre's
+//! *Margin.* The reported point P lies in the frustum up to the rounding of the slopes, u |A_P| with A_P <= A + R (u is
+//! [`Machine::unit`]), and within R of the centre. The signed distance is computed with at most 5u (|Y| + |A|) of error (u from the centre's
 //! difference, u each from slope, product and sum). Both are below 16u (|f|₁ + R), |f|₁ the sum of the centre's
 //! coordinates, which is added to R once a frame ([`radius`]); since N >= 1 it covers them. N is enlarged by 16u for
 //! its own rounding. So whatever is dropped has no point P in the frustum: *hit => kept*.

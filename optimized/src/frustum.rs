@@ -126,6 +126,13 @@ impl Heading {
         [if self.forward { x } else { -x }, y, z]
     }
 
+    /// From where to where a slice reaches in the rays' sense, if on the axis it reaches from `lower` to `upper` of the eye.
+    #[inline(always)]
+    #[must_use]
+    pub fn ahead(&self, [lower, upper]: [f32; 2]) -> [f32; 2] {
+        if self.forward { [lower, upper] } else { [-upper, -lower] }
+    }
+
     /// Kernel: the same of sixteen vectors.
     #[inline(always)]
     pub fn along_lanes<M: Machine>(&self, m: M, v: [M::F; 3]) -> [M::F; 3] {
@@ -200,8 +207,7 @@ impl<M: Machine> Frustum<M> {
         for (s, (near, far)) in near.iter_mut().zip(&mut slices.far).take(count).enumerate() {
             let index = self.heading.slice_index(count, s);
             let (lower, upper) = (axis.planes[index], axis.planes[index + 1]);
-            let distances = [lower - position, upper - position];
-            [*near, *far] = if self.heading.forward { distances } else { [-distances[1], -distances[0]] };
+            [*near, *far] = self.heading.ahead([lower - position, upper - position]);
         }
         m.beside(
             Chore::Distances(count),

@@ -18,7 +18,7 @@ use crate::crew::Crew;
 use crate::event::{Event, Events, RenderError};
 use crate::machine::{Chore, LANES, Machine, Site};
 use crate::plan::{Cells, OnEvent, Plan, Resolution, Voxelizer};
-use crate::queue::{MAX_IDS, Queue, Queues};
+use crate::queue::{MAX_IDS, Queue, push_all};
 use crate::voxelize::CellBox;
 use contract::Sphere;
 
@@ -337,38 +337,21 @@ fn fill_queues<M: Machine>(
 ) -> Result<Vec<Queue>, Event> {
     let strides = strides(axes);
     let mut queues = m.beside(Chore::Clear(2 * cells(axes)), || vec![Queue::EMPTY; cells(axes)]);
-    let mut places = Vec::new();
+    let (mut places, mut full) = (Vec::new(), Vec::new());
     for ((id, cells), ball) in (0..).zip(boxes).zip(balls) {
         places.clear();
-        cells.for_each(plan.voxelizer, axes, ball, |cell| places.push(cell));
-        for &cell in &places {
-            if let Some(lost) = queues[index(strides, cell)].oldest() {
-                let full = Event::CellFull { cell, pushed: id, lost };
-                if plan.on_event != OnEvent::GoOn {
-                    return Err(full);
-                }
-                events.push(full);
+        cells.for_each(plan.voxelizer, axes, ball, |cell| {
+            let place = index(strides, cell);
+            places.push(place);
+            full.extend(queues[place].oldest().map(|lost| Event::CellFull { cell, pushed: id, lost }));
+        });
+        for event in full.drain(..) {
+            if plan.on_event != OnEvent::GoOn {
+                return Err(event);
             }
+            events.push(event);
         }
-        for places in places.chunks(LANES) {
-            let mut read = [Queue::EMPTY; LANES];
-            for (queue, &cell) in read.iter_mut().zip(places) {
-                *queue = queues[index(strides, cell)];
-            }
-            let pushed = m.within(
-                #[inline(always)]
-                || {
-                    m.beside(
-                        Chore::Push(places.len()),
-                        #[inline(always)]
-                        || Queues::read(m, &read).push(m, m.splat_i(id.cast_signed())).to_array(m),
-                    )
-                },
-            );
-            for (queue, &cell) in pushed.iter().zip(places) {
-                queues[index(strides, cell)] = *queue;
-            }
-        }
+        push_all(m, &mut queues, &places, id);
         m.branch(id as usize + 1 < balls.len(), Site::NextSphere);
     }
     Ok(queues)

@@ -221,25 +221,18 @@ impl<M: Machine> Work<M> {
         let corners = look.corners(tile);
         let [columns, rows] = tile.squares(BLOCK);
         let blocks = (columns * rows) as usize;
-        let slack = 2.0 * look.slack;
         self.done.clear();
         self.done.resize(blocks, 0);
         for heading in Heading::all() {
             let mut along = corners;
-            let (mut pure, mut any) = (true, [false; 4]);
             for corner in &mut along {
                 *corner = heading.along(*corner);
-                let [a, y, z] = *corner;
-                for (any, excess) in any.iter_mut().zip([a - y, a + y, a - z, a + z]) {
-                    pure &= excess > slack;
-                    *any |= excess >= -slack;
-                }
             }
-            // Where all corners are steeper to the same side, so are the rays between them.
-            if any == [true; 4] {
-                self.pass(look, heading, &along, tile, pure, known, stripe);
+            let share = share(look.slack, &along);
+            if share != Share::None {
+                self.pass(look, heading, &along, tile, share == Share::All, known, stripe);
             }
-            if pure {
+            if share == Share::All {
                 return;
             }
         }
@@ -675,6 +668,39 @@ pub fn slack(unit: f32, camera: &Camera) -> f32 {
         slack = slack.max(c + w * u + h * v);
     }
     slack * (8.0 * unit)
+}
+
+/// How many of a rectangle's rays have a heading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Share {
+    /// None has, for certain.
+    None,
+    /// Some may have.
+    Some,
+    /// All have, for certain.
+    All,
+}
+
+/// How many have a heading, by their directions (A, Y, Z) at its corners. Where all corners are steeper to the same side, so are the rays
+/// between them, but for twice the `slack` of a direction.
+#[inline(always)]
+#[must_use]
+pub fn share(slack: f32, corners: &[[f32; 3]; 4]) -> Share {
+    let slack = 2.0 * slack;
+    let (mut all, mut any) = (true, [false; 4]);
+    for &[a, y, z] in corners {
+        for (any, excess) in any.iter_mut().zip([a - y, a + y, a - z, a + z]) {
+            all &= excess > slack;
+            *any |= excess >= -slack;
+        }
+    }
+    if all {
+        Share::All
+    } else if any == [true; 4] {
+        Share::Some
+    } else {
+        Share::None
+    }
 }
 
 /// Kernel: the range of slopes of rays between directions along (A, Y, Z), sixteen such rectangles at a time; `slack` is more than the
