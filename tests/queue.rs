@@ -4,12 +4,12 @@
 use optimized::host::Level;
 use optimized::host::Work;
 use optimized::machine::{LANES, Machine};
-use optimized::queue::{EMPTY, MAX_IDS, Queue, Queues, SLOTS};
+use optimized::queue::{EMPTY, MAX_IDS, Queue, SLOTS, push_all};
 use rand::RngExt;
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use verify::seed::{generator, seed};
 
-/// Pushes an id onto the queues at these places as the voxelizer does: all are read before any is written.
+/// Pushes an id onto the queues at these places as the voxelizer does.
 struct Push<'a> {
     queues: &'a mut [Queue],
     places: &'a [usize],
@@ -20,11 +20,7 @@ impl Work for Push<'_> {
     type Output = ();
 
     fn on<M: Machine + Send + Sync>(self, m: M) {
-        let read: Vec<Queue> = self.places.iter().map(|&place| self.queues[place]).collect();
-        let pushed = Queues::read(m, &read).push(m, m.splat_i(self.id.cast_signed())).to_array(m);
-        for (&place, queue) in self.places.iter().zip(pushed) {
-            self.queues[place] = queue;
-        }
+        push_all(m, self.queues, self.places, self.id);
     }
 }
 
@@ -66,6 +62,81 @@ fn a_queue_holds_the_last_sixteen() {
         assert!(lost > 1_000 && shared > 1_000, "too little was at stake: {lost} lost, {shared} shared");
     }
     eprintln!("{} levels", levels.len());
+}
+
+/// All ways in which eight corners can share cells: of each corner the number of its cell, cells being numbered as they come.
+fn coincidences() -> Vec<[usize; 8]> {
+    let mut all = vec![([0; 8], 0)];
+    for corner in 0..8 {
+        let next = |(mut of, cells): ([usize; 8], usize), cell: usize| {
+            of[corner] = cell;
+            (of, cells.max(cell + 1))
+        };
+        all = all.into_iter().flat_map(|one| (0..=one.1).map(move |cell| next(one, cell))).collect();
+    }
+    all.into_iter().map(|(of, _)| of).collect()
+}
+
+/// All 4,140 coincidences of the corners of a box, with queues that hold 0 to 16 ids, all as many or each one more than the one before: every
+/// cell lists the id once and first, keeps the others in their order, and loses of sixteen exactly the oldest; other cells stay.
+#[test]
+fn exhausted_over_coincidences_and_fill_levels() {
+    let (all, levels) = (coincidences(), Level::available());
+    assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), 4140, "the eighth Bell number");
+    let ids =
+        |cell: usize, fill: usize| (0..fill).map(move |i| u32::try_from(100 * cell + i).expect("small"));
+    for level in &levels {
+        // A queue of each cell, and one of a cell that is no corner's, filled so far.
+        let mut filled = vec![[Queue::EMPTY; 9]; SLOTS + 1];
+        for (fill, queues) in filled.iter_mut().enumerate() {
+            for cell in 0..9 {
+                for id in ids(cell, fill) {
+                    level.run(Push { queues, places: &[cell], id });
+                }
+                assert!(queues[cell].ids().eq(ids(cell, fill).rev()), "{level}");
+            }
+        }
+        let (mut pushes, mut lost) = (0, 0);
+        for of in &all {
+            for fill in 0..=SLOTS {
+                for more in [0, 1] {
+                    let fill_of = |cell: usize| (fill + more * cell) % (SLOTS + 1);
+                    let before: [Queue; 9] = std::array::from_fn(|cell| filled[fill_of(cell)][cell]);
+                    let mut queues = before;
+                    level.run(Push { queues: &mut queues, places: of, id: 65_000 });
+                    pushes += 1;
+                    for (cell, queue) in queues.iter().enumerate() {
+                        if of.contains(&cell) {
+                            let kept = ids(cell, fill_of(cell)).rev().take(SLOTS - 1);
+                            assert!(
+                                queue.ids().eq(std::iter::once(65_000).chain(kept)),
+                                "{level}, {of:?}, {fill}, {more}: {queue:?}"
+                            );
+                            lost += usize::from(fill_of(cell) == SLOTS);
+                        } else {
+                            assert_eq!(*queue, before[cell], "{level}, {of:?}, {fill}, {more}");
+                        }
+                    }
+                }
+            }
+        }
+        eprintln!("{level}: {pushes} pushes, {lost} ids lost");
+        // Distinct cells of all coincidences: partitions of nine less those of eight, 21,147 − 4,140; each is full once in 17 fills.
+        assert_eq!([pushes, lost], [4140 * 17 * 2, 2 * (21_147 - 4140)], "{level}");
+    }
+}
+
+/// More places than a machine has lanes, if they differ.
+#[test]
+fn more_than_sixteen_places_are_pushed_to() {
+    for level in Level::available() {
+        let mut queues = [Queue::EMPTY; 40];
+        let places: Vec<usize> = (0..37).rev().collect();
+        level.run(Push { queues: &mut queues, places: &places, id: 7 });
+        for (place, queue) in queues.iter().enumerate() {
+            assert_eq!(queue.ids().collect::<Vec<_>>(), vec![7; usize::from(place < 37)], "{level}, {place}");
+        }
+    }
 }
 
 #[test]

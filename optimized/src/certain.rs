@@ -46,6 +46,15 @@ pub enum Side {
     Unknown,
 }
 
+/// Kernel: in which lanes the eye is outside its sphere for certain, and in which inside, from the computed squares of the centre's
+/// distance and of the radius. The one is off by 5u of itself (the centre's difference counts twice, a product and two sums once), the
+/// other by u; 16u of both are granted.
+#[inline(always)]
+pub fn sides<M: Machine>(m: M, ff: M::F, rr: M::F) -> [M::B; 2] {
+    let slack = m.mul(m.add(ff, rr), m.splat(16.0 * m.unit()));
+    [m.lt(m.add(rr, slack), ff), m.lt(m.add(ff, slack), rr)]
+}
+
 /// A sphere relative to the eye: its centre along (A, Y, Z), r², its bound, the eye's side.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ball {

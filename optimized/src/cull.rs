@@ -5,20 +5,15 @@
 //! an unnormalised normal of length N = √(1 + slope²), so that a ball of radius R around (A, Y, Z) has a point inside
 //! if and only if Y − lo_Y A >= −R N, and so on. Four planes are four lanes.
 //!
-//! *Margin.* The reported point P lies in the frustum up to the rounding of the slopes, u |A_P| with A_P <= A + R, and
-//! within R of the centre. The signed distance is computed with at most 5u (|Y| + |A|) of error (u from the centre's
+//! *Margin.* The reported point P lies in the frustum up to the rounding of the slopes, u |A_P| with A_P <= A + R (u is
+//! [`Machine::unit`]), and within R of the centre. The signed distance is computed with at most 5u (|Y| + |A|) of error (u from the centre's
 //! difference, u each from slope, product and sum). Both are below 16u (|f|₁ + R), |f|₁ the sum of the centre's
-//! coordinates, which is added to R once a frame ([`radius`]); since N >= 1 it covers them. N is enlarged by 2⁻²⁰ for
+//! coordinates, which is added to R once a frame ([`radius`]); since N >= 1 it covers them. N is enlarged by 16u for
 //! its own rounding. So whatever is dropped has no point P in the frustum: *hit => kept*.
 
 use crate::frustum::Frustum;
 use crate::machine::{Machine, Site};
 use crate::plan::Margins;
-
-/// 16 units of f32 rounding.
-const SLACK: f32 = 16.0 / (1u32 << 24) as f32;
-/// 1 + 2⁻²⁰.
-const LONGER: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
 
 /// The four planes of a frustum, one a lane; further lanes repeat them.
 #[derive(Clone, Copy)]
@@ -29,12 +24,12 @@ pub struct Planes<M: Machine> {
     minus_length: M::F,
 }
 
-/// What a sphere's reach becomes for culling: see the module's text. `f` is eye − centre.
+/// What a sphere's reach becomes for culling by a machine of that unit roundoff: see the module's text. `f` is eye − centre.
 #[must_use]
-pub fn radius(margins: Margins, f: [f32; 3], reach: f32) -> f32 {
+pub fn radius(unit: f32, margins: Margins, f: [f32; 3], reach: f32) -> f32 {
     match margins {
         Margins::None => reach,
-        Margins::Derived => (reach + SLACK * (f[0].abs() + f[1].abs() + f[2].abs() + reach)).next_up(),
+        Margins::Derived => (reach + 16.0 * unit * (f[0].abs() + f[1].abs() + f[2].abs() + reach)).next_up(),
     }
 }
 
@@ -42,7 +37,7 @@ pub fn radius(margins: Margins, f: [f32; 3], reach: f32) -> f32 {
 #[inline(always)]
 pub fn radii<M: Machine>(m: M, [x, y, z]: [M::F; 3], radius: M::F) -> M::F {
     // Twice the slack of one: it covers the rounding of this sum as well.
-    let slack = m.mul(m.splat(2.0 * SLACK), m.add(m.add(m.add(x, y), z), radius));
+    let slack = m.mul(m.splat(32.0 * m.unit()), m.add(m.add(m.add(x, y), z), radius));
     m.add(radius, slack)
 }
 
@@ -52,7 +47,8 @@ impl<M: Machine> Planes<M> {
     pub fn new(m: M, frustum: &Frustum<M>, margins: Margins) -> Self {
         let [[lo_y, hi_y], [lo_z, hi_z]] = frustum.slope_arrays(m);
         let along = m.lanes_of_four([-lo_y, hi_y, -lo_z, hi_z]);
-        let (one, longer) = (m.splat(1.0), if margins == Margins::Derived { LONGER } else { 1.0 });
+        let (one, longer) =
+            (m.splat(1.0), if margins == Margins::Derived { 1.0 + 16.0 * m.unit() } else { 1.0 });
         let length = m.mul(m.sqrt(m.add(one, m.mul(along, along))), m.splat(longer));
         let normal = [along, m.lanes_of_four([1.0, -1.0, 0.0, 0.0]), m.lanes_of_four([0.0, 0.0, 1.0, -1.0])];
         Self { normal, minus_length: m.neg(length) }

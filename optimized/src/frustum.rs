@@ -8,8 +8,8 @@
 //! A slice reaches from plane to plane of the grid, in distances A0 <= A1 from the eye. Since a slope times A is
 //! extreme at one end, the packet is in the slice between
 //! eye_Y + min(lo A0, lo A1) and eye_Y + max(hi A0, hi A1). Rounding: A0, A1 and the slopes have relative error
-//! u = 2⁻²⁴, product and sum round once each, in all at most 4u (|eye_Y| + A1) as the slope is at most 1; we take
-//! off and put on 16u (|eye_Y| + A_max), A_max the largest distance of any plane. So if a point P of a ray lies in
+//! u ([`Machine::unit`]), product and sum round once each, in all at most 4u (|eye_Y| + A1) as the slope is at most 1; we take
+//! off and put on 16u (|eye_Y| + A_max), A_max the largest distance of any plane ([`pad`]). So if a point P of a ray lies in
 //! slice i (grid's module text), its Y lies between the two, and by monotony of the cell map its cell is in the
 //! rectangle. Each slice is evaluated afresh, sixteen at a time, one a lane; nothing is summed up from slice to slice.
 //!
@@ -22,13 +22,22 @@ use crate::grid::{Grid, MAX_CELLS};
 use crate::machine::{Chore, LANES, Machine, Site, three};
 use crate::plan::Margins;
 
-/// 16 units of f32 rounding.
-const PAD: f32 = 16.0 / (1u32 << 24) as f32;
-
 const _: () = assert!(MAX_CELLS.is_multiple_of(LANES));
 
-/// 1 + 2⁻²⁰: more than the roundings of t |d_X| and of a slice's distance.
-pub const BEYOND: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
+/// What rounding may take off the bounds of a slice or put on, in scene units: 16u (|eye| + farthest), the eye's coordinate on a minor axis
+/// and the largest distance of any plane on the major one.
+#[inline(always)]
+#[must_use]
+pub fn pad(unit: f32, eye: f32, farthest: f32) -> f32 {
+    16.0 * unit * (eye.abs() + farthest)
+}
+
+/// 1 + 16u: more than the roundings of t |d_X| and of a slice's distance.
+#[inline(always)]
+#[must_use]
+pub fn beyond(unit: f32) -> f32 {
+    1.0 + 16.0 * unit
+}
 
 /// The rays that move most along one axis, in one sense.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,6 +66,17 @@ pub struct Bundle<M: Machine> {
     pub speed: M::F,
     /// d_Y/|d_X| and d_Z/|d_X| of each ray.
     pub slope: [M::F; 2],
+}
+
+/// Where a packet is in sixteen slices, on one of the minor axes.
+#[derive(Clone, Copy)]
+pub struct Extent<M: Machine> {
+    /// Lowest coordinate, in scene units.
+    pub low: M::F,
+    /// Highest coordinate.
+    pub high: M::F,
+    /// The slice lies behind the eye: the packet is not in it, whatever the other two say.
+    pub behind: M::B,
 }
 
 /// The slices of a grid in the order in which a packet meets them, and what of each it may touch.
@@ -104,6 +124,13 @@ impl Heading {
             |i| v[i],
         );
         [if self.forward { x } else { -x }, y, z]
+    }
+
+    /// From where to where a slice reaches in the rays' sense, if on the axis it reaches from `lower` to `upper` of the eye.
+    #[inline(always)]
+    #[must_use]
+    pub fn ahead(&self, [lower, upper]: [f32; 2]) -> [f32; 2] {
+        if self.forward { [lower, upper] } else { [-upper, -lower] }
     }
 
     /// Kernel: the same of sixteen vectors.
@@ -180,8 +207,7 @@ impl<M: Machine> Frustum<M> {
         for (s, (near, far)) in near.iter_mut().zip(&mut slices.far).take(count).enumerate() {
             let index = self.heading.slice_index(count, s);
             let (lower, upper) = (axis.planes[index], axis.planes[index + 1]);
-            let distances = [lower - position, upper - position];
-            [*near, *far] = if self.heading.forward { distances } else { [-distances[1], -distances[0]] };
+            [*near, *far] = self.heading.ahead([lower - position, upper - position]);
         }
         m.beside(
             Chore::Distances(count),
@@ -194,7 +220,7 @@ impl<M: Machine> Frustum<M> {
             let (near, far) = (part_of(m, &near, start), part_of(m, &slices.far, start));
             for side in 0..2 {
                 let eye = eye[self.heading.order[side + 1]];
-                let pad = if margins == Margins::Derived { PAD * (eye.abs() + farthest) } else { 0.0 };
+                let pad = if margins == Margins::Derived { pad(m.unit(), eye, farthest) } else { 0.0 };
                 let [first, last] = self.rectangle(m, side, eye, grid, near, far, pad);
                 slices.first[side][part.clone()].copy_from_slice(&m.to_array_i(first));
                 slices.last[side][part.clone()].copy_from_slice(&m.to_array_i(last));
@@ -217,7 +243,28 @@ impl<M: Machine> Frustum<M> {
         pad: f32,
     ) -> [M::I; 2] {
         let axis = &grid.axes[self.heading.order[side + 1]];
-        let (zero, widen, eye) = (m.splat(0.0), m.splat(grid.widen), m.splat(eye));
+        let Extent { low, high, behind } = self.extent(m, side, eye, grid.widen, near, far, pad);
+        let (start, end) = (m.splat(axis.planes[0]), m.splat(axis.planes[axis.planes.len() - 1]));
+        let outside = m.or(m.lt(high, start), m.lt(end, low));
+        let last = m.select_i(m.or(behind, outside), m.splat_i(-1), axis.cell(m, high));
+        [axis.cell(m, low), last]
+    }
+
+    /// Kernel: where the packet is on one of the minor axes in slices that reach from `near` to `far` of the eye, one slice a lane;
+    /// `widen` farther all around, and `pad` for rounding ([`pad`]). Lengths are in scene units.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments, reason = "a kernel takes values")]
+    pub fn extent(
+        &self,
+        m: M,
+        side: usize,
+        eye: f32,
+        widen: f32,
+        near: M::F,
+        far: M::F,
+        pad: f32,
+    ) -> Extent<M> {
+        let (zero, widen, eye) = (m.splat(0.0), m.splat(widen), m.splat(eye));
         let (near, far) = (m.sub(near, widen), m.add(far, widen));
         let behind = m.lt(far, zero);
         let near = m.max(near, zero);
@@ -225,10 +272,7 @@ impl<M: Machine> Frustum<M> {
         let border = m.add(widen, m.splat(pad));
         let low = m.sub(m.add(eye, m.min(m.mul(lo, near), m.mul(lo, far))), border);
         let high = m.add(m.add(eye, m.max(m.mul(hi, near), m.mul(hi, far))), border);
-        let (start, end) = (m.splat(axis.planes[0]), m.splat(axis.planes[axis.planes.len() - 1]));
-        let outside = m.or(m.lt(high, start), m.lt(end, low));
-        let last = m.select_i(m.or(behind, outside), m.splat_i(-1), axis.cell(m, high));
-        [axis.cell(m, low), last]
+        Extent { low, high, behind }
     }
 }
 

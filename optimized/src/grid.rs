@@ -18,7 +18,7 @@ use crate::crew::Crew;
 use crate::event::{Event, Events, RenderError};
 use crate::machine::{Chore, LANES, Machine, Site};
 use crate::plan::{Cells, OnEvent, Plan, Resolution, Voxelizer};
-use crate::queue::{MAX_IDS, Queue, Queues};
+use crate::queue::{MAX_IDS, Queue, push_all};
 use crate::voxelize::CellBox;
 use contract::Sphere;
 
@@ -29,9 +29,6 @@ const DENSITY: f64 = 4.0;
 
 /// The same for tiles, whose cells are to hold about a row of lanes: measured, see [`crate::tile`].
 const TILE_DENSITY: f64 = 1.0 / 32.0;
-
-/// 1 + 2⁻²⁰: what is added to the largest reach covers the roundings of the distances it is compared with.
-const WIDER: f32 = 1.0 + 1.0 / (1u32 << 20) as f32;
 
 /// One axis of the grid.
 #[derive(Clone, Debug)]
@@ -196,8 +193,11 @@ impl Grid {
         let by_center = plan.voxelizer == Voxelizer::ByCenter;
         let boxes: Vec<Bounds> =
             balls.iter().map(|ball| if by_center { ball.point() } else { *ball }).collect();
-        let widen =
-            if by_center { WIDER * balls.iter().map(|ball| ball.radius).fold(0.0, f32::max) } else { 0.0 };
+        let widen = if by_center {
+            widen(m.unit(), balls.iter().map(|ball| ball.radius).fold(0.0, f32::max))
+        } else {
+            0.0
+        };
         let whole = whole(&boxes);
         let widest = balls.iter().map(|ball| f64::from(ball.radius)).fold(0.0, f64::max) * 2.001;
         let mut n = resolution(&plan, &whole, DENSITY * balls.len() as f64, widest)?;
@@ -260,7 +260,7 @@ impl Grid {
         let mut bins = std::mem::take(&mut memory.bins);
         bins.fill(m, &axes, spheres, large_from, &mut memory.places, crew);
         let Bins { offsets, ids, large, radius } = bins;
-        Ok(Self { axes, widen: WIDER * radius, large, storage: Storage::Lists { offsets, ids } })
+        Ok(Self { axes, widen: widen(m.unit(), radius), large, storage: Storage::Lists { offsets, ids } })
     }
 
     /// Calls `visit` with each id of a cell. `live` = no makes every cell empty.
@@ -339,38 +339,21 @@ fn fill_queues<M: Machine>(
 ) -> Result<Vec<Queue>, Event> {
     let strides = strides(axes);
     let mut queues = m.beside(Chore::Clear(2 * cells(axes)), || vec![Queue::EMPTY; cells(axes)]);
-    let mut places = Vec::new();
+    let (mut places, mut full) = (Vec::new(), Vec::new());
     for ((id, cells), ball) in (0..).zip(boxes).zip(balls) {
         places.clear();
-        cells.for_each(plan.voxelizer, axes, ball, |cell| places.push(cell));
-        for &cell in &places {
-            if let Some(lost) = queues[index(strides, cell)].oldest() {
-                let full = Event::CellFull { cell, pushed: id, lost };
-                if plan.on_event != OnEvent::GoOn {
-                    return Err(full);
-                }
-                events.push(full);
+        cells.for_each(plan.voxelizer, axes, ball, |cell| {
+            let place = index(strides, cell);
+            places.push(place);
+            full.extend(queues[place].oldest().map(|lost| Event::CellFull { cell, pushed: id, lost }));
+        });
+        for event in full.drain(..) {
+            if plan.on_event != OnEvent::GoOn {
+                return Err(event);
             }
+            events.push(event);
         }
-        for places in places.chunks(LANES) {
-            let mut read = [Queue::EMPTY; LANES];
-            for (queue, &cell) in read.iter_mut().zip(places) {
-                *queue = queues[index(strides, cell)];
-            }
-            let pushed = m.within(
-                #[inline(always)]
-                || {
-                    m.beside(
-                        Chore::Push(places.len()),
-                        #[inline(always)]
-                        || Queues::read(m, &read).push(m, m.splat_i(id.cast_signed())).to_array(m),
-                    )
-                },
-            );
-            for (queue, &cell) in pushed.iter().zip(places) {
-                queues[index(strides, cell)] = *queue;
-            }
-        }
+        push_all(m, &mut queues, &places, id);
         m.branch(id as usize + 1 < balls.len(), Site::NextSphere);
     }
     Ok(queues)
@@ -431,6 +414,13 @@ fn cell_boxes<M: Machine>(
     let hi = [0, 1, 2].map(|i| corner(i, |b| b.hi));
     (0..chunk.len())
         .map(move |lane| CellBox { lo: [0, 1, 2].map(|i| lo[i][lane]), hi: [0, 1, 2].map(|i| hi[i][lane]) })
+}
+
+/// How far around the rays of a packet cells list what they hit, where spheres are listed by centre: the largest reach, and 16u of it for the
+/// roundings of the distances it is compared with.
+#[must_use]
+pub fn widen(unit: f32, reach: f32) -> f32 {
+    (1.0 + 16.0 * unit) * reach
 }
 
 /// The box around all boxes.

@@ -116,6 +116,12 @@ pub trait Machine: Copy {
     /// That machine.
     fn spu(self) -> Self::Spu;
 
+    /// Unit roundoff, a constant: what an f32 operation gives is off by at most so much of itself. Margins of kernels are multiples of it.
+    #[inline(always)]
+    fn unit(self) -> f32 {
+        1.0 / (1u32 << 24) as f32
+    }
+
     /// Rim: does work with this machine's instructions enabled, the one door into them. Everything below it is
     /// inlined into it.
     #[inline(always)]

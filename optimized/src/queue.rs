@@ -10,7 +10,7 @@
 //! the first two bytes" after "shift left" overwrites a stored id on a big-endian machine. Here it is the low half of
 //! word 0 that is free after the shift, by arithmetic and not by the order of bytes.
 
-use crate::machine::{LANES, Machine};
+use crate::machine::{Chore, LANES, Machine};
 
 /// Slots of a queue.
 pub const SLOTS: usize = 16;
@@ -19,15 +19,42 @@ pub const EMPTY: u16 = u16::MAX;
 /// The most spheres whose ids differ from [`EMPTY`].
 pub const MAX_IDS: usize = EMPTY as usize;
 /// 32-bit words of a queue.
-const WORDS: usize = SLOTS / 2;
+pub const WORDS: usize = SLOTS / 2;
 
 /// A queue as it lies in memory: 32 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Queue([u32; WORDS]);
 
-/// A queue in each lane.
+/// A queue in each lane: its words, the two newest ids in the first, the newer in its low half.
 #[derive(Clone, Copy)]
 pub struct Queues<M: Machine>(pub [M::I; WORDS]);
+
+/// Pushes an id onto the queues at these places. Of sixteen places all are read before any is written, so that equal ones get the id once;
+/// where there are more, those of different sixteens must differ.
+///
+/// # Panics
+/// If a place is not one of the queues'.
+pub fn push_all<M: Machine>(m: M, queues: &mut [Queue], places: &[usize], id: u32) {
+    for places in places.chunks(LANES) {
+        let mut read = [Queue::EMPTY; LANES];
+        for (queue, &place) in read.iter_mut().zip(places) {
+            *queue = queues[place];
+        }
+        let pushed = m.within(
+            #[inline(always)]
+            || {
+                m.beside(
+                    Chore::Push(places.len()),
+                    #[inline(always)]
+                    || Queues::read(m, &read).push(m, m.splat_i(id.cast_signed())).to_array(m),
+                )
+            },
+        );
+        for (queue, &place) in pushed.iter().zip(places) {
+            queues[place] = *queue;
+        }
+    }
+}
 
 impl Queue {
     /// No ids.

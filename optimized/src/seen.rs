@@ -1,14 +1,14 @@
 //! A frame's scene as seen from its camera: what is made once a frame and read by every packet. Spheres relative to
 //! the eye, their radii for culling and the bounds on their rounding, and the grid. And a packet's way through it.
 
-use crate::bound::{self, Bound, Rule};
+use crate::bound::{Bound, Rule};
 use crate::camera::Block;
 use crate::certain::{self, Ball, Rays, Side};
 use crate::crew::Crew;
 use crate::cull::{self, Planes};
 use crate::double;
 use crate::event::{Event, Events, RenderError};
-use crate::frustum::{BEYOND, Bundle, Heading, Slices};
+use crate::frustum::{Bundle, Heading, Slices, beyond};
 use crate::grid::{Bounds, Grid, Memory};
 use crate::machine::{Chore, LANES, Machine, Site, Stage, three};
 use crate::margin;
@@ -128,7 +128,7 @@ impl Seen {
         let mut seen = Self::without_grid(m, plan, scene, camera.eye());
         let ball = |(p, s): (&mut Prepared, &Sphere)| {
             let reach = margin::reach(plan.margins, plan.arithmetic, p.f, s.radius);
-            p.cull_radius = cull::radius(plan.margins, p.f, reach);
+            p.cull_radius = cull::radius(m.unit(), plan.margins, p.f, reach);
             match plan.margins {
                 Margins::None => Bounds::nearest(s.center, reach),
                 Margins::Derived => Bounds::outward(s.center, reach),
@@ -145,7 +145,7 @@ impl Seen {
         let bounds = match plan.arithmetic {
             Arithmetic::Rounded(_) | Arithmetic::Spu(_) => Vec::new(),
             Arithmetic::Certified => {
-                let rule = Rule::new(bound::NEAREST);
+                let rule = Rule::new(m.unit().into());
                 scene.iter().map(|s| bounds(&rule, eye, s)).collect()
             }
         };
@@ -502,7 +502,7 @@ impl<M: Machine, H: Hits<M>> Visitor<M> for Meeting<'_, M, H> {
         let m = self.m;
         let (beyond, widen) = match self.margins {
             Margins::None => (1.0, self.grid.widen),
-            Margins::Derived => (BEYOND, self.grid.widen * BEYOND),
+            Margins::Derived => (beyond(m.unit()), self.grid.widen * beyond(m.unit())),
         };
         let reached = m.mul(self.hits.reached(m), m.splat(beyond));
         let end = m.splat(self.slices.far[slice]);

@@ -18,19 +18,16 @@
 //! if A > R. We take them if A >= 2R; a sphere that is nearer has an outline without limits, and one that lies behind, A + R < 0, has
 //! none at all.
 //!
-//! *Rounding.* That the centre is rounded is covered by R, which has 16u (|c|₁ + R) added at least (u = 2⁻²⁴; the centre is off
+//! *Rounding.* That the centre is rounded is covered by R, which has 16u (|c|₁ + R) added at least (u = [`Machine::unit`]; the centre is off
 //! by u |c|₁ at most). From there on A, Y, R are exact numbers. A² − R² = (A − R)(A + R) is right to 3u of itself and at least
 //! 3/4 A²; adding Y², to 5u, the root to 4u. So each of the two terms is right to 6u of itself and their sum to 7u of the sum of their
 //! magnitudes, which after division is at most 4/3 (w + (1 + w)/2), w = |Y|/A: the slope is off by at most 16u (2w + 1). The slope
 //! itself is at least w/3 − 1 in magnitude, since the tangent is off the centre's direction by an angle whose sine is at most 1/2
-//! of the cosine of that direction's. So the error is below 112u (1 + |slope|); we take off and put on 256u (1 + |slope|), or 2⁻¹⁶.
+//! of the cosine of that direction's. So the error is below 112u (1 + |slope|); we take off and put on 256u (1 + |slope|).
 //!
 //! *Near.* A point of the sphere is at A − r along the major axis at least, and R − r covers the rounding of A and of the difference.
 
 use crate::machine::Machine;
-
-/// 256 units of f32 rounding.
-const SLACK: f32 = 1.0 / (1u32 << 16) as f32;
 
 /// What is seen of sixteen spheres.
 #[derive(Clone, Copy)]
@@ -76,7 +73,7 @@ fn tangents<M: Machine>(m: M, [a, y]: [M::F; 2], radius: M::F, square: M::F) -> 
     let across = m.mul(radius, m.sqrt(m.add(square, m.mul(y, y))));
     let along = m.mul(a, y);
     let [lo, hi] = [m.div(m.sub(along, across), square), m.div(m.add(along, across), square)];
-    let slack = m.splat(SLACK);
+    let slack = m.splat(256.0 * m.unit());
     let [lo_slack, hi_slack] = [m.mul(slack, m.max(lo, m.neg(lo))), m.mul(slack, m.max(hi, m.neg(hi)))];
     [m.sub(lo, m.add(slack, lo_slack)), m.add(hi, m.add(slack, hi_slack))]
 }

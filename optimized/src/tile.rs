@@ -66,11 +66,11 @@
 
 use crate::bound::{self, Rule};
 use crate::camera::{BLOCK, CameraLanes, spread};
-use crate::certain::{Ball, Nearest, Rays, Side};
+use crate::certain::{Ball, Nearest, Rays, Side, sides};
 use crate::cull;
 use crate::double::short_error;
 use crate::frame::Known;
-use crate::frustum::{BEYOND, Frustum, Heading, Slices};
+use crate::frustum::{Frustum, Heading, Slices, beyond};
 use crate::grid::Grid;
 use crate::machine::{LANES, Machine, Site, three};
 use crate::plan::{Culling, Plan};
@@ -168,12 +168,6 @@ impl<'a, M: Machine> Tiles<'a, M> {
     /// For a frame.
     #[inline(always)]
     pub fn new(m: M, plan: Plan, scene: &'a Scene, camera: &'a Camera, grid: &'a Grid) -> Self {
-        let [w, h] = [camera.size().width() as f32, camera.size().height() as f32];
-        let mut slack = 0.0f32;
-        for i in 0..3 {
-            let [c, u, v] = [camera.corner()[i].abs(), camera.du()[i].abs(), camera.dv()[i].abs()];
-            slack = slack.max(c + w * u + h * v);
-        }
         let look = Look {
             m,
             plan,
@@ -182,8 +176,8 @@ impl<'a, M: Machine> Tiles<'a, M> {
             grid,
             lanes: CameraLanes::new(m, camera),
             painter: Painter::new(m, scene, camera),
-            rule: Rule::new(bound::NEAREST),
-            slack: slack * (8.0 / (1u32 << 24) as f32),
+            rule: Rule::new(m.unit().into()),
+            slack: slack(m.unit(), camera),
         };
         let work = Work {
             counts: Counts::default(),
@@ -227,25 +221,18 @@ impl<M: Machine> Work<M> {
         let corners = look.corners(tile);
         let [columns, rows] = tile.squares(BLOCK);
         let blocks = (columns * rows) as usize;
-        let slack = 2.0 * look.slack;
         self.done.clear();
         self.done.resize(blocks, 0);
         for heading in Heading::all() {
             let mut along = corners;
-            let (mut pure, mut any) = (true, [false; 4]);
             for corner in &mut along {
                 *corner = heading.along(*corner);
-                let [a, y, z] = *corner;
-                for (any, excess) in any.iter_mut().zip([a - y, a + y, a - z, a + z]) {
-                    pure &= excess > slack;
-                    *any |= excess >= -slack;
-                }
             }
-            // Where all corners are steeper to the same side, so are the rays between them.
-            if any == [true; 4] {
-                self.pass(look, heading, &along, tile, pure, known, stripe);
+            let share = share(look.slack, &along);
+            if share != Share::None {
+                self.pass(look, heading, &along, tile, share == Share::All, known, stripe);
             }
-            if pure {
+            if share == Share::All {
                 return;
             }
         }
@@ -266,7 +253,7 @@ impl<M: Machine> Work<M> {
     ) {
         let m = look.m;
         let [p, q, r, s] = *corners;
-        let range = look.range([spread(m, p), spread(m, q), spread(m, r), spread(m, s)]);
+        let range = range(m, look.slack, [spread(m, p), spread(m, q), spread(m, r), spread(m, s)]);
         let slices =
             Frustum { heading, slopes: range }.slices(m, look.camera.eye(), look.grid, look.plan.margins);
         let strides = look.grid.strides();
@@ -481,8 +468,8 @@ impl<M: Machine> Work<M> {
             }
         }
         let finished = round.all || {
-            let widen = look.grid.widen * BEYOND;
-            let reached = m.add(m.mul(nearest.hi, m.splat(BEYOND)), m.splat(widen));
+            let widen = look.grid.widen * beyond(m.unit());
+            let reached = m.add(m.mul(nearest.hi, m.splat(beyond(m.unit()))), m.splat(widen));
             !m.any(m.not(m.le(reached, m.splat(round.end))), Site::Unfinished)
         };
         if !finished {
@@ -614,34 +601,6 @@ impl<M: Machine> Look<'_, M> {
         self.lanes.directions(m, xs, ys)
     }
 
-    /// The range of slopes of rays between directions along (A, Y, Z), sixteen such rectangles at a time.
-    #[inline(always)]
-    fn range(&self, corners: [[M::F; 3]; 4]) -> [[M::F; 2]; 2] {
-        let m = self.m;
-        let slack = m.splat(self.slack);
-        let mut least = corners[0][0];
-        let mut slopes = [[m.splat(f32::INFINITY), m.splat(f32::NEG_INFINITY)]; 2];
-        for [a, y, z] in corners {
-            least = m.min(least, a);
-            for (slope, d) in slopes.iter_mut().zip([y, z]) {
-                let s = m.div(d, a);
-                *slope = [m.min(slope[0], s), m.max(slope[1], s)];
-            }
-        }
-        // Directions are off by `slack`, and slopes for that by twice (1 + |slope|) slack / a, and their own rounding.
-        let off = m.add(m.div(m.mul(slack, m.splat(4.0)), least), m.splat(1.0 / (1u32 << 20) as f32));
-        let far = m.le(least, m.mul(slack, m.splat(1024.0)));
-        let (one, minus) = (m.splat(1.0), m.splat(-1.0));
-        let mut out = slopes;
-        for [lo, hi] in &mut out {
-            let size = m.add(one, m.max(m.max(*hi, m.neg(*hi)), m.max(*lo, m.neg(*lo))));
-            let pad = m.mul(off, size);
-            *lo = m.select(far, minus, m.max(m.sub(*lo, pad), minus));
-            *hi = m.select(far, one, m.min(m.add(*hi, pad), one));
-        }
-        out
-    }
-
     /// The range of slopes that outlines are held against: without culling all numbers, but not infinity, at which that begins and ends
     /// which is not to be seen.
     #[inline(always)]
@@ -686,7 +645,7 @@ impl<M: Machine> Look<'_, M> {
                     heading.along_lanes(m, through[2]),
                     heading.along_lanes(m, through[3]),
                 ];
-                let [[lo_y, hi_y], [lo_z, hi_z]] = self.seen_from(self.range(corners));
+                let [[lo_y, hi_y], [lo_z, hi_z]] = self.seen_from(range(m, self.slack, corners));
                 let at = (row * columns + column) as usize;
                 let [[out_lo_y, out_hi_y], [out_lo_z, out_hi_z]] = &mut ranges.0;
                 out_lo_y[at..at + LANES].copy_from_slice(&m.to_array(lo_y));
@@ -696,6 +655,80 @@ impl<M: Machine> Look<'_, M> {
             }
         }
     }
+}
+
+/// More than the rounding of any direction of a camera, in any component: 8u of the largest |corner| + W|du| + H|dv|.
+#[inline(always)]
+#[must_use]
+pub fn slack(unit: f32, camera: &Camera) -> f32 {
+    let [w, h] = [camera.size().width() as f32, camera.size().height() as f32];
+    let mut slack = 0.0f32;
+    for i in 0..3 {
+        let [c, u, v] = [camera.corner()[i].abs(), camera.du()[i].abs(), camera.dv()[i].abs()];
+        slack = slack.max(c + w * u + h * v);
+    }
+    slack * (8.0 * unit)
+}
+
+/// How many of a rectangle's rays have a heading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Share {
+    /// None has, for certain.
+    None,
+    /// Some may have.
+    Some,
+    /// All have, for certain.
+    All,
+}
+
+/// How many have a heading, by their directions (A, Y, Z) at its corners. Where all corners are steeper to the same side, so are the rays
+/// between them, but for twice the `slack` of a direction.
+#[inline(always)]
+#[must_use]
+pub fn share(slack: f32, corners: &[[f32; 3]; 4]) -> Share {
+    let slack = 2.0 * slack;
+    let (mut all, mut any) = (true, [false; 4]);
+    for &[a, y, z] in corners {
+        for (any, excess) in any.iter_mut().zip([a - y, a + y, a - z, a + z]) {
+            all &= excess > slack;
+            *any |= excess >= -slack;
+        }
+    }
+    if all {
+        Share::All
+    } else if any == [true; 4] {
+        Share::Some
+    } else {
+        Share::None
+    }
+}
+
+/// Kernel: the range of slopes of rays between directions along (A, Y, Z), sixteen such rectangles at a time; `slack` is more than the
+/// rounding of any direction ([`slack`]).
+#[inline(always)]
+pub fn range<M: Machine>(m: M, slack: f32, corners: [[M::F; 3]; 4]) -> [[M::F; 2]; 2] {
+    let slack = m.splat(slack);
+    let mut least = corners[0][0];
+    let mut slopes = [[m.splat(f32::INFINITY), m.splat(f32::NEG_INFINITY)]; 2];
+    for [a, y, z] in corners {
+        least = m.min(least, a);
+        for (slope, d) in slopes.iter_mut().zip([y, z]) {
+            let s = m.div(d, a);
+            *slope = [m.min(slope[0], s), m.max(slope[1], s)];
+        }
+    }
+    // Directions are off by `slack`, and slopes for that by twice (1 + |slope|) slack / a, and their own rounding.
+    let off = m.add(m.div(m.mul(slack, m.splat(4.0)), least), m.splat(16.0 * m.unit()));
+    let far = m.le(least, m.mul(slack, m.splat(1024.0)));
+    let (one, minus) = (m.splat(1.0), m.splat(-1.0));
+    let mut out = slopes;
+    for [lo, hi] in &mut out {
+        let size = m.add(one, m.max(m.max(*hi, m.neg(*hi)), m.max(*lo, m.neg(*lo))));
+        let pad = m.mul(off, size);
+        *lo = m.select(far, minus, m.max(m.sub(*lo, pad), minus));
+        *hi = m.select(far, one, m.min(m.add(*hi, pad), one));
+    }
+    out
 }
 
 impl<M: Machine> Work<M> {
@@ -745,9 +778,8 @@ impl<M: Machine> Work<M> {
             let rr = m.mul(radius, radius);
             let [above, below, root] = look.rule.bounds(m, farthest, radius);
             let ff = m.dot(c, c);
-            let slack = m.mul(m.add(ff, rr), m.splat(1.0 / (1u32 << 20) as f32));
-            let outside = m.to_bits(m.lt(m.add(rr, slack), ff));
-            let inside = m.to_bits(m.lt(m.add(ff, slack), rr));
+            let [outside, inside] = sides(m, ff, rr);
+            let [outside, inside] = [m.to_bits(outside), m.to_bits(inside)];
             let fields = [
                 c[0],
                 c[1],

@@ -137,7 +137,7 @@ impl<M: Machine> Trial<M> {
 
 impl Whole {
     /// |centre|² − r²: above 0 if the eye is outside.
-    fn power(&self) -> i128 {
+    pub(crate) fn power(&self) -> i128 {
         let square = |x: i64| i128::from(x) * i128::from(x);
         self.center.iter().map(|&c| square(c)).sum::<i128>() - square(self.radius)
     }
@@ -151,11 +151,34 @@ impl Whole {
         a * radius * radius - [cross(0, 1), cross(1, 2), cross(2, 0)].iter().map(|x| x * x).sum::<i128>()
     }
 
+    /// Whether the ray, which begins at the eye, has a point in the closed ball.
+    pub(crate) fn touches(&self, direction: [i64; 3]) -> bool {
+        if self.along(direction) > 0 { self.discriminant(direction) >= 0 } else { self.power() <= 0 }
+    }
+
+    /// About how far the ray passes from the centre.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "about")]
+    pub(crate) fn reached(&self, direction: [i64; 3]) -> i64 {
+        let point = Self { radius: 0, ..*self };
+        let a: i128 = direction.iter().map(|&x| i128::from(x) * i128::from(x)).sum();
+        let square = if self.along(direction) > 0 {
+            -point.discriminant(direction) as f64 / a as f64
+        } else {
+            point.power() as f64
+        };
+        square.sqrt() as i64
+    }
+
+    /// c·d.
+    fn along(&self, direction: [i64; 3]) -> i128 {
+        (0..3).map(|i| i128::from(self.center[i]) * i128::from(direction[i])).sum()
+    }
+
     /// The smallest positive root, as a distance along A.
     #[allow(clippy::cast_precision_loss, reason = "2^-40 are granted")]
     fn root(&self, direction: [i64; 3]) -> Option<f64> {
         let discriminant = self.discriminant(direction);
-        let along: i128 = (0..3).map(|i| i128::from(self.center[i]) * i128::from(direction[i])).sum();
+        let along = self.along(direction);
         let a: i128 = direction.iter().map(|&x| i128::from(x) * i128::from(x)).sum();
         if discriminant < 0 || (self.power() >= 0 && along <= 0) {
             return None;

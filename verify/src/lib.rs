@@ -5,7 +5,7 @@
 //! is random. What is judged: [`subject`], of other people `peers` (behind
 //! the feature of that name). How: [`judge`] by bits and by error bounds and by an outside witness
 //! (`embree`, behind the feature of that name), [`visible`] from inside the grid
-//! tracer; a [`verdict`] is what they say. [`run`] does it all for one frame, [`bench`](mod@bench) says how
+//! tracer, [`bounds`] and [`margins`] on floats so small that all inputs can be tried, [`cells`] on all f32; a [`verdict`] is what they say. [`run`] does it all for one frame, [`bench`](mod@bench) says how
 //! fast, [`spu`] how fast on the paper's processor; [`claims`], [`picture`] and [`report`] show it.
 
 pub mod directed;
@@ -23,7 +23,9 @@ pub mod peers;
 pub mod embree;
 
 pub mod bounds;
+pub mod cells;
 pub mod judge;
+pub mod margins;
 pub mod verdict;
 pub mod visible;
 

@@ -1,6 +1,6 @@
 //! A machine whose floats have few significant bits, so that a kernel can be run on all inputs of a domain.
 //!
-//! Each f32 operation is done in f64 and rounded to so many bits, to nearest (ties to even) or towards zero. For at most 12 bits
+//! Each f32 operation is done in f64 and rounded to so many bits, to nearest (ties to even) or towards zero. For at most 16 bits
 //! that is the correctly rounded result: sums and products of such numbers, no farther apart than 2²⁸, are exact in f64, and
 //! quotients and roots come no closer to a rounding boundary than f64 resolves. Exponents are f32's: the bounds under test exclude
 //! over- and underflow anyway. Integer lanes and masks are those of the scalar machine.
@@ -21,7 +21,7 @@ pub enum Mode {
 /// Floats of so many significant bits.
 #[derive(Clone, Copy, Debug)]
 pub struct Small {
-    /// From 2 to 12.
+    /// From 2 to 16.
     pub bits: u32,
     /// Their rounding.
     pub mode: Mode,
@@ -63,6 +63,10 @@ impl Machine for Small {
 
     fn spu(self) -> Self::Spu {
         optimized::host::Spu
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "a power of two")]
+    fn unit(self) -> f32 {
+        Self::unit(self) as f32
     }
     fn lanes(self, x: [f32; LANES]) -> Self::F {
         x

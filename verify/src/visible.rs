@@ -11,7 +11,7 @@ use optimized::cull::{self, Planes};
 use optimized::frustum::{Bundle, Frustum, Slices};
 use optimized::grid::{Axis, Grid};
 use optimized::host::Scalar;
-use optimized::machine::LANES;
+use optimized::machine::{LANES, Machine};
 use optimized::plan::{Arithmetic, Culling, Voxelizer};
 use optimized::seen::Seen;
 use optimized::sphere::Prepared;
@@ -258,7 +258,7 @@ impl Packet<'_> {
                 std::array::from_fn(|i| if i == side { near[i] + distance } else { near[i] });
             let Some(radius) = point.distance_up(center) else { continue };
             let f = [0, 1, 2].map(|i| ray.eye[i] - center[i]);
-            if self.culls(f, cull::radius(self.seen.plan.margins, f, radius)) {
+            if self.culls(f, cull::radius(Scalar.unit(), self.seen.plan.margins, f, radius)) {
                 return say(&format!("the ball at {center:?}, radius {radius:?}, is culled"));
             }
             checked.balls += 1;

@@ -18,6 +18,9 @@ pub struct Spu;
 const LARGEST: u32 = 0x7fff_ffff;
 const SIGN: u32 = 1 << 31;
 
+/// Twice the step from a number of 24 bits to the next: quotients and roots are cut off, or one unit in the last place below.
+pub(super) const UNIT: f32 = 1.0 / (1u32 << 22) as f32;
+
 /// The number that a pattern is.
 #[inline(always)]
 fn number(x: u32) -> f64 {
@@ -161,6 +164,10 @@ impl Machine for Spu {
     #[inline(always)]
     fn spu(self) -> Self {
         self
+    }
+    #[inline(always)]
+    fn unit(self) -> f32 {
+        UNIT
     }
     #[inline(always)]
     fn lanes(self, x: [f32; LANES]) -> Self::F {

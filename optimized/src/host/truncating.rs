@@ -5,7 +5,7 @@
 //! 754 has not, and the operation is done again by [`Spu`]. No control register is touched.
 #![allow(unsafe_code, reason = "intrinsics; each names why it may be called")]
 
-use super::spu::Spu;
+use super::spu::{Spu, UNIT};
 use crate::machine::{LANES, Machine, Site};
 use contract::spu::{FREST, FRSQEST};
 use fearless_simd::Avx512;
@@ -171,6 +171,10 @@ impl Machine for Truncating {
     #[inline(always)]
     fn spu(self) -> Self {
         self
+    }
+    #[inline(always)]
+    fn unit(self) -> f32 {
+        UNIT
     }
     #[inline(always)]
     fn lanes(self, x: [f32; LANES]) -> Self::F {

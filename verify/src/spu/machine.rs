@@ -123,6 +123,10 @@ impl<V: Machine> Machine for Spu<V> {
         self.0.spu()
     }
 
+    fn unit(self) -> f32 {
+        self.0.unit()
+    }
+
     fn within<R>(self, work: impl FnOnce() -> R) -> R {
         self.0.within(work)
     }
