@@ -1,42 +1,331 @@
-//! Do the proofs hold?
+//! Do the proofs hold, and would the prover notice if they did not?
+//!
+//! Everyday: all lemmas but those that take long, and six of each kernel's faults, drawn afresh. `CGT_LONG=1`: all of both, and every solver is asked.
 
-use std::time::Instant;
-use verify::prove::claims::lemmas;
-use verify::prove::solver::Solver;
-use verify::prove::theorem::{Effort, Expected, Lemma, break_each, prove};
+use optimized::host::Scalar;
+use optimized::machine::{LANES, Machine, Site};
+use std::os::unix::fs::PermissionsExt;
+use std::time::Duration;
+use verify::prove::claims::{CLAIMS, lemmas};
+use verify::prove::run::{kernels, run};
+use verify::prove::smt::{Numbers, query};
+use verify::prove::solver::{Reply, Solver};
+use verify::prove::symbolic::{ExploreError, Lanes, MAX_DOORS, Space, Symbolic, explore};
+use verify::prove::term::{Node, Op, Sort, Term, Terms};
+use verify::prove::theorem::{
+    Ask, Effort, Expected, Explored, Lemma, Outcome, Provable, Statement, Theorem, any_bits, break_each,
+    prove,
+};
 use verify::seed::{generator, seed};
+
+/// The solvers that are there; none is told.
+fn solvers() -> Vec<Solver> {
+    let solvers = Solver::all();
+    match solvers.as_slice() {
+        [] => eprintln!("not judged: proofs: no solver was found; tests/fetch-solvers brings two"),
+        found => {
+            let names: Vec<String> = found.iter().map(|s| format!("{} {}", s.name, s.version)).collect();
+            eprintln!("judged by {}", names.join(", "));
+        }
+    }
+    solvers
+}
 
 #[test]
 fn lemmas_are_proved() {
-    let seed = seed();
-    let solvers = Solver::all();
-    let only = std::env::var("CGT_PROOFS").unwrap_or_default();
-    eprintln!("CGT_SEED={seed}; {:?}", solvers.iter().map(|s| &s.version).collect::<Vec<_>>());
-    let start = Instant::now();
-    let mut bad = Vec::new();
-    let lemmas: Vec<Lemma> = lemmas().into_iter().filter(|lemma| lemma.name.starts_with(&only)).collect();
-    for (i, lemma) in (0..).zip(&lemmas) {
-        let f = prove(lemma, &solvers, &Effort::EVERYDAY, &mut generator(seed, i));
-        eprintln!(
-            "{:24} {:.2} s, {} paths, {} compared, {} needed: {:?}",
-            f.name, f.seconds, f.paths, f.compared, f.needed, f.outcome
-        );
-        bad.extend(f.wrong.iter().map(|wrong| format!("{}: {wrong}", f.name)));
+    let (solvers, seed) = (solvers(), seed());
+    let long = std::env::var_os("CGT_LONG").is_some();
+    let proofs = run(|_| true, long, &solvers, seed, &|| ());
+    eprintln!("{proofs}");
+    assert!(proofs.wrong().is_empty(), "CGT_SEED={seed}: {:#?}", proofs.wrong());
+    if solvers.len() > 1 {
+        assert!(proofs.not_shown().is_empty(), "not shown: {:#?}", proofs.not_shown());
     }
-    let mut kernels: Vec<&str> = lemmas.iter().map(|lemma| lemma.kernel).collect();
-    kernels.dedup();
-    for kernel in kernels {
-        let about: Vec<&Lemma> = lemmas
-            .iter()
-            .filter(|lemma| lemma.kernel == kernel && lemma.expected == Expected::Holds)
-            .collect();
-        let f = break_each(&about, &solvers, &Effort::EVERYDAY, &mut generator(seed, 99));
-        eprintln!(
-            "{:32} {:.2} s, {} tried, {} noticed, {} harmless, {} open",
-            f.kernel, f.seconds, f.tried, f.noticed, f.harmless, f.open
-        );
-        bad.extend(f.wrong.iter().map(|wrong| format!("{}: {wrong}", f.kernel)));
+    for why in proofs.not_shown() {
+        eprintln!("not judged: {why}");
     }
-    eprintln!("{:.1} s", start.elapsed().as_secs_f64());
-    assert!(bad.is_empty(), "{bad:#?}");
+    let tried: usize = proofs.faults.iter().map(|faults| faults.tried).sum();
+    assert_eq!(proofs.faults.len(), kernels(&lemmas()).len(), "kernels");
+    assert!(solvers.is_empty() || tried >= 6 * proofs.faults.len() - 5, "only {tried} faults were tried");
+}
+
+/// Each lemma belongs to a claim, and no claim names one that is not there.
+#[test]
+fn claims_and_lemmas_belong_together() {
+    let lemmas = lemmas();
+    let mut names: Vec<&str> = lemmas.iter().map(|lemma| lemma.name).collect();
+    for claim in CLAIMS {
+        for name in claim.lemmas {
+            assert!(names.contains(name), "{name}, of: {}", claim.statement);
+        }
+    }
+    let claimed = |name: &str| CLAIMS.iter().any(|claim| claim.lemmas.contains(&name));
+    assert_eq!(names.iter().find(|name| !claimed(name)), None, "belongs to no claim");
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), lemmas.len(), "a name stands twice");
+}
+
+/// The lemma with a statement beside it that contradicts one of its assumptions.
+struct Contradicted(Box<dyn Provable>, usize);
+
+impl Provable for Contradicted {
+    fn on_symbols(
+        &self,
+        lanes: Lanes,
+        wrong: Option<(usize, verify::prove::broken::Fault)>,
+    ) -> Result<Explored, String> {
+        self.0.on_symbols(lanes, wrong)
+    }
+
+    fn on_scalars(
+        &self,
+        value: &mut dyn FnMut(&'static str, Sort) -> u32,
+        wrong: Option<(usize, verify::prove::broken::Fault)>,
+    ) -> Statement<bool> {
+        let mut statement = self.0.on_scalars(value, wrong);
+        let (_, holds) = statement.assume[self.1];
+        statement.assume.push(("the opposite", !holds));
+        statement
+    }
+}
+
+#[test]
+fn witnesses_are_needed_and_contradictions_noticed() {
+    let mut rng = generator(seed(), 1);
+    let (mut judged, mut contradicted) = (0, 0);
+    for i in 0..lemmas().len() {
+        let lemma = lemmas().swap_remove(i);
+        let name = lemma.name;
+        let found = prove(&lemma, &[], &Effort::EVERYDAY, &mut rng);
+        assert_eq!((found.wrong, found.outcome), (Vec::new(), Outcome::NotJudged), "{name}");
+        let without = prove(&Lemma { witness: &[], ..lemma }, &[], &Effort::EVERYDAY, &mut rng);
+        assert!(without.wrong.iter().any(|why| why.contains("the witness has no")), "{name}: {without:?}");
+        let assumptions = {
+            let lemma = lemmas().swap_remove(i);
+            lemma.statement.on_scalars(&mut |_, _| 0, None).assume.len()
+        };
+        for assumption in 0..assumptions {
+            let lemma = lemmas().swap_remove(i);
+            let statement = Box::new(Contradicted(lemma.statement, assumption));
+            let contrary = Lemma { statement, ..lemma };
+            let found = prove(&contrary, &[], &Effort::EVERYDAY, &mut rng);
+            assert!(found.wrong.iter().any(|why| why.contains("does not hold")), "{name}: {found:?}");
+            contradicted += 1;
+        }
+        judged += 1;
+    }
+    eprintln!("{judged} witnesses, {contradicted} contradictions");
+    assert!(judged >= 30 && contradicted >= 40);
+}
+
+/// What the symbolic operations mean to a solver, to [`Terms::values`] and to the scalar machine.
+#[test]
+fn operations_are_those_of_the_host() {
+    const CASES: usize = 24;
+    let (solvers, seed) = (solvers(), seed());
+    let mut rng = generator(seed, 2);
+    let mut terms = Terms::default();
+    let (mut wanted, mut cases) = (Vec::new(), Vec::new());
+    for op in Op::ALL {
+        for _ in 0..CASES {
+            let operands: Vec<u32> = op.takes().iter().map(|sort| any_bits(*sort, &mut rng)).collect();
+            let expected = on_scalar(op, &operands);
+            let made: Vec<Term> = op
+                .takes()
+                .iter()
+                .zip(&operands)
+                .map(|(sort, bits)| constant(&mut terms, *sort, *bits))
+                .collect();
+            let at = |i: usize| made.get(i).copied().unwrap_or(made[0]);
+            let result = terms.make(Node::Op(op, [at(0), at(1), at(2)]));
+            let values = terms.values(&[]);
+            let found = values.bits(result);
+            let nan = op.gives() == Sort::Number && f32::from_bits(expected).is_nan();
+            let alike = if nan { f32::from_bits(found).is_nan() } else { found == expected };
+            assert!(alike, "{op:?} of {operands:x?}: {found:#x}, not {expected:#x}; CGT_SEED={seed}");
+            wanted.extend(is(&mut terms, op.gives(), result, expected));
+            cases.push(format!("{op:?} of {operands:x?} is {expected:#010x}"));
+        }
+    }
+    for solver in &solvers {
+        let text = query(&terms, Numbers::Float, &[], &wanted).expect("a query");
+        let reply = solver.ask(&text, &[], Duration::from_secs(60));
+        assert_eq!(reply, Reply::Sat(Some(Vec::new())), "{}: {cases:#?}; CGT_SEED={seed}", solver.name);
+        // And of anything else it says that it is not so.
+        let (term, holds) = wanted[wanted.len() / 2];
+        let mut other = wanted.clone();
+        other.push((term, !holds));
+        let text = query(&terms, Numbers::Float, &[], &other).expect("a query");
+        assert_eq!(solver.ask(&text, &[], Duration::from_secs(60)), Reply::Unsat, "{}", solver.name);
+    }
+    eprintln!("{} results, {} solvers, CGT_SEED={seed}", cases.len(), solvers.len());
+}
+
+/// A constant of those bits.
+fn constant(terms: &mut Terms, sort: Sort, bits: u32) -> Term {
+    match sort {
+        Sort::Number => terms.make(Node::Number(bits)),
+        Sort::Integer => terms.make(Node::Integer(bits.cast_signed())),
+        Sort::Truth => {
+            let (one, two) = (terms.make(Node::Integer(1)), terms.make(Node::Integer(2)));
+            let operands = if bits == 1 { [one, two, one] } else { [two, one, two] };
+            terms.make(Node::Op(Op::LtI, operands))
+        }
+    }
+}
+
+/// What must hold of a term so that it has those bits; of a NaN any.
+fn is(terms: &mut Terms, sort: Sort, term: Term, bits: u32) -> Vec<(Term, bool)> {
+    let other = constant(terms, sort, bits);
+    let mut op = |op, x, y| terms.make(Node::Op(op, [x, y, x]));
+    match sort {
+        Sort::Truth => vec![(term, bits == 1)],
+        Sort::Integer => vec![(op(Op::LtI, term, other), false), (op(Op::LtI, other, term), false)],
+        Sort::Number if f32::from_bits(bits).is_nan() => vec![(op(Op::Le, term, term), false)],
+        Sort::Number => {
+            let mut same = vec![(op(Op::Le, term, other), true), (op(Op::Le, other, term), true)];
+            if f32::from_bits(bits) == 0.0 {
+                let one = terms.make(Node::Number(1.0f32.to_bits()));
+                let zero = terms.make(Node::Number(0));
+                let inverse = terms.make(Node::Op(Op::Div, [one, term, one]));
+                let positive = f32::from_bits(bits).is_sign_positive();
+                same.push((terms.make(Node::Op(Op::Lt, [zero, inverse, zero])), positive));
+            }
+            same
+        }
+    }
+}
+
+/// The scalar machine's result, as bits.
+fn on_scalar(op: Op, operands: &[u32]) -> u32 {
+    let m = Scalar;
+    let f = |i: usize| m.splat(f32::from_bits(operands[i]));
+    let n = |i: usize| m.splat_i(operands[i].cast_signed());
+    let b = |i: usize| m.lt_i(m.splat_i(0), m.splat_i(operands[i].cast_signed()));
+    let number = |x: [f32; LANES]| x[0].to_bits();
+    let integer = |x: [i32; LANES]| x[0].cast_unsigned();
+    let truth = |x: [bool; LANES]| u32::from(x[0]);
+    match op {
+        Op::Add => number(m.add(f(0), f(1))),
+        Op::Sub => number(m.sub(f(0), f(1))),
+        Op::Mul => number(m.mul(f(0), f(1))),
+        Op::Div => number(m.div(f(0), f(1))),
+        Op::Sqrt => number(m.sqrt(f(0))),
+        Op::Lt => truth(m.lt(f(0), f(1))),
+        Op::Le => truth(m.le(f(0), f(1))),
+        Op::LtI => truth(m.lt_i(n(0), n(1))),
+        Op::And => truth(m.and(b(0), b(1))),
+        Op::Or => truth(m.or(b(0), b(1))),
+        Op::Not => truth(m.not(b(0))),
+        Op::Select => number(m.select(b(0), f(1), f(2))),
+        Op::SelectI => integer(m.select_i(b(0), n(1), n(2))),
+        Op::AddI => integer(m.add_i(n(0), n(1))),
+        Op::OrI => integer(m.or_i(n(0), n(1))),
+        Op::Shl16 => integer(m.shl_16(n(0))),
+        Op::Shr16 => integer(m.shr_16(n(0))),
+        Op::Floor => integer(m.floor(f(0))),
+        Op::Truncate => integer(m.truncate(f(0))),
+    }
+}
+
+/// A program that says the same to all questions.
+fn liar(folder: &tempfile::TempDir, says: &str) -> Solver {
+    let file = folder.path().join("z3");
+    std::fs::write(&file, format!("#!/bin/sh\n{says}\n")).expect("a file");
+    std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o755)).expect("its rights");
+    Solver::new("z3", file)
+}
+
+/// Who says "unsat" to all proves everything, and is noticed by the faults it does not notice; a counterexample that is none is not
+/// believed; who says nothing in time, or something else, has not spoken.
+#[test]
+fn solvers_are_not_believed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut rng = generator(seed(), 3);
+    let effort = Effort { proof: Duration::from_millis(300), faults: usize::MAX, ..Effort::EVERYDAY };
+    let successor = || lemmas().swap_remove(0);
+    assert_eq!(successor().name, "walk.successor");
+    let yes = [liar(&folder, "echo unsat")];
+    let found = prove(&successor(), &yes, &effort, &mut rng);
+    assert!(found.wrong.iter().any(|why| why.contains("is not needed")), "{found:?}");
+    let faults = break_each(&[&successor()], &yes, &effort, &mut rng);
+    assert!(faults.wrong.iter().any(|why| why.contains("the prover may say yes to all")), "{faults:?}");
+    assert_eq!((faults.noticed, faults.tried), (0, successor().faults().len()));
+    let values: String = (0..11).map(|i| format!("(in{i} #x0000000{i:x})")).collect();
+    for says in [&format!("echo 'sat ({values})'"), "echo unknown", "sleep 2", "echo unsatisfiable", "exit 1"]
+    {
+        let found = prove(&successor(), &[liar(&folder, says)], &effort, &mut rng);
+        assert!(matches!(found.outcome, Outcome::NotShown(_)), "{says}: {found:?}");
+    }
+}
+
+/// Work whose doors are counted.
+fn doors(m: Symbolic<'_, 1>, x: &[Term], number: usize) -> u32 {
+    let mut taken = 0;
+    for i in 0..number {
+        let limit = m.splat_i(i32::try_from(i).expect("few"));
+        taken = 2 * taken + u32::from(m.any(m.lt_i([x[0]], limit), Site::NextId));
+    }
+    taken
+}
+
+#[test]
+fn every_path_is_explored_once() {
+    let space = Space::new(Lanes::Any);
+    let x = [space.input(0, Sort::Integer)];
+    let paths = explore(&space, |m| doors(m, &x, 5)).expect("32 paths");
+    let taken: Vec<u32> = paths.iter().map(|path| path.result).collect();
+    assert_eq!(taken, (0..32).rev().collect::<Vec<_>>());
+    assert_eq!(explore(&space, |m| doors(m, &x, 13)).err(), Some(ExploreError::Paths(4096)));
+    let endless = explore(&space, |m| {
+        let mut i = 0;
+        while m.any(m.lt_i([x[0]], m.splat_i(i)), Site::NextCell) {
+            i += 1;
+        }
+    });
+    assert_eq!(endless.err(), Some(ExploreError::Doors(MAX_DOORS)));
+    // Where all lanes are alike, a question that was answered is not asked again.
+    let space = Space::new(Lanes::Alike);
+    let x = [space.input(0, Sort::Integer)];
+    let twice = explore(&space, |m| [doors(m, &x, 1), doors(m, &x, 1)]).expect("2 paths");
+    assert_eq!(twice.iter().map(|path| path.result).collect::<Vec<_>>(), [[1, 1], [0, 0]]);
+}
+
+/// Something that plain arithmetic does to a number on its way into lanes.
+struct Plain(fn(f32) -> f32);
+
+impl Theorem for Plain {
+    fn state<M: Machine, K: Machine<F = M::F, I = M::I, B = M::B>>(
+        &self,
+        m: M,
+        _: K,
+        ask: &mut impl Ask<M>,
+    ) -> Statement<M::B> {
+        let x = m.splat(self.0(ask.plain("x")));
+        Statement { steps: vec![], assume: vec![], conclude: vec![("it is above 0", m.lt(m.splat(0.0), x))] }
+    }
+}
+
+/// A sign that is changed is understood; an addition would be lost, and the comparison with the scalar machine tells.
+#[test]
+fn plain_arithmetic_does_not_pass_unnoticed() {
+    let lemma = |plain| Lemma {
+        name: "plain",
+        words: "",
+        kernel: "",
+        numbers: Numbers::Float,
+        whole: false,
+        lanes: Lanes::Any,
+        expected: Expected::Fails,
+        long: false,
+        witness: &[("x", 0x3f80_0000)],
+        harmless: &[],
+        statement: Box::new(Plain(plain)),
+    };
+    let mut rng = generator(seed(), 4);
+    let understood = prove(&lemma(|x| -x), &[], &Effort::EVERYDAY, &mut rng);
+    assert_eq!(understood.wrong, Vec::<String>::new());
+    let lost = prove(&lemma(|x| x + 1.0), &[], &Effort::EVERYDAY, &mut rng);
+    assert!(lost.wrong.iter().any(|why| why.contains("terms say")), "{lost:?}");
 }

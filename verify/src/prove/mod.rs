@@ -8,6 +8,7 @@
 
 pub mod broken;
 pub mod claims;
+pub mod run;
 pub mod smt;
 pub mod solver;
 pub mod symbolic;

@@ -10,7 +10,7 @@ use thiserror::Error;
 pub enum Numbers {
     /// What they are: IEEE 754, to nearest, ties to even.
     Float,
-    /// The real results: a statement about formulas.
+    /// The real results: a statement about formulas. Infinity is some number, of which nothing is known.
     Real,
     /// Anything, but the same for the same operands: a statement that needs none of them. Comparisons are those of f32.
     Free,
@@ -19,7 +19,7 @@ pub enum Numbers {
 /// Why terms have no text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub enum PrintError {
-    /// An infinite constant or a NaN in a statement about reals.
+    /// A NaN in a statement about reals.
     #[error("the constant {0:#010x} is no real number")]
     NotReal(u32),
     /// An operation between numbers and integers in a statement about reals.
@@ -42,6 +42,9 @@ pub fn query(
         if numbers == Numbers::Real { "(set-option :pp.decimal true)\n" } else { "" },
         logic(terms, numbers, wanted)
     );
+    if numbers == Numbers::Real {
+        text += "(declare-const infinity Real)\n";
+    }
     for (i, sort) in inputs.iter().enumerate() {
         let sort = match (sort, numbers) {
             (Sort::Number, Numbers::Real) => "Real",
@@ -162,8 +165,11 @@ fn whole(mode: &str, x: &str) -> String {
 /// The number of an f32, exactly.
 fn real(bits: u32) -> Result<String, PrintError> {
     let x = f32::from_bits(bits);
-    if !x.is_finite() {
+    if x.is_nan() {
         return Err(PrintError::NotReal(bits));
+    }
+    if x.is_infinite() {
+        return Ok(if x > 0.0 { "infinity".into() } else { "(- infinity)".into() });
     }
     // Every f32 is a whole number of its least bit.
     let exponent = (bits >> 23 & 0xff).max(1).cast_signed() - 150;

@@ -5,7 +5,7 @@ use super::smt::Numbers;
 use super::term::Sort;
 use crate::scenes::catalogue;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -46,10 +46,23 @@ impl Solver {
         let find = |name: &'static str| {
             let program = folders.iter().map(|folder| folder.join(name)).find(|file| file.is_file())?;
             let said = Command::new(&program).arg("--version").stdin(Stdio::null()).output().ok()?;
-            let version = String::from_utf8_lossy(&said.stdout).lines().next()?.trim().to_owned();
+            if !said.status.success() {
+                return None;
+            }
+            let said = String::from_utf8_lossy(&said.stdout);
+            // Its name apart, what begins with a digit.
+            let version =
+                said.split_whitespace().find(|word| word.starts_with(|c: char| c.is_ascii_digit()))?;
+            let version = version.to_owned();
             Some(Self { name, version, program })
         };
         KNOWN.into_iter().filter_map(find).collect()
+    }
+
+    /// One of those that are known, somewhere else.
+    #[must_use]
+    pub fn new(name: &'static str, program: PathBuf) -> Self {
+        Self { name, version: String::new(), program }
     }
 
     /// Whether it is good at such numbers: the first of those is asked first.
@@ -102,12 +115,6 @@ impl Solver {
             thread::sleep(Duration::from_millis(2));
         }
         reader.join().expect("reading does not panic").map(Some)
-    }
-
-    /// The program's file.
-    #[must_use]
-    pub fn program(&self) -> &Path {
-        &self.program
     }
 }
 

@@ -1,8 +1,10 @@
-//! The symbolic machine: one lane, whose values are [`Term`]s. A kernel that runs on it leaves behind what it would do to any values.
+//! The symbolic machine: one lane or a few, whose values are [`Term`]s. A kernel that runs on it leaves behind what it would do to any
+//! values.
 //!
 //! *Doors.* Where a kernel asks [`Machine::any`], both answers are possible. [`explore`] runs it once for each path: a path is the
-//! list of answers given. Other lanes are not there; so *no* means no for this lane too, and of *yes* this lane knows
-//! nothing ([`Lanes::Any`]). Where all lanes hold the same, as a walk's do, *yes* means yes for this one ([`Lanes::Alike`]).
+//! list of answers given. If other lanes are not there, *no* means no for this lane too, and of *yes* this lane knows
+//! nothing ([`Lanes::Any`]). Where all lanes hold the same, as a walk's do, or all that differ are there, as the four planes of a frustum are, *yes*
+//! means yes for one of these ([`Lanes::Alike`], [`Lanes::Four`]).
 //!
 //! *Rim.* A kernel takes some numbers as plain f32 and spreads them. A term passes for one as a NaN that carries its place. Only a change of
 //! sign is understood; what plain arithmetic would make of it is lost. This is why each statement is computed from its terms
@@ -10,25 +12,28 @@
 
 use super::term::{Node, Op, Sort, Term, Terms};
 use optimized::machine::{LANES, Machine, Site};
+use std::array::from_fn;
 use std::cell::{Cell, RefCell};
 use thiserror::Error;
 
-/// What is known of the other lanes.
+/// Which lanes there are, and what is known of the others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Lanes {
-    /// Nothing.
+    /// One, and nothing.
     Any,
-    /// That they hold the same as this one.
+    /// One, and that they hold the same.
     Alike,
+    /// Four, and that they repeat these.
+    Four,
 }
 
 /// A door, and the answer given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Answer {
     /// Where.
     pub site: Site,
-    /// This lane's own.
-    pub own: Term,
+    /// What each lane says that is there.
+    pub own: Vec<Term>,
     /// Whether any lane said yes.
     pub any: bool,
 }
@@ -61,9 +66,9 @@ pub struct Space {
     pub lanes: Lanes,
 }
 
-/// The machine.
+/// The machine, of `N` lanes.
 #[derive(Clone, Copy, Debug)]
-pub struct Symbolic<'a>(&'a Space);
+pub struct Symbolic<'a, const N: usize>(&'a Space);
 
 /// What a kernel gave on one path.
 #[derive(Clone, Debug)]
@@ -75,12 +80,32 @@ pub struct Path<T> {
 }
 
 impl<T> Path<T> {
-    /// What this lane knows on the path: terms, and whether each holds.
-    pub fn known(&self, lanes: Lanes) -> impl Iterator<Item = (Term, bool)> + use<'_, T> {
-        self.answers
-            .iter()
-            .filter(move |answer| !answer.any || lanes == Lanes::Alike)
-            .map(|answer| (answer.own, answer.any))
+    /// What is known on the path: terms, and whether each holds, in one of several cases, of which one is so.
+    #[must_use]
+    pub fn known(&self, lanes: Lanes) -> Vec<Vec<(Term, bool)>> {
+        let mut cases = vec![Vec::new()];
+        for answer in &self.answers {
+            match (answer.any, lanes) {
+                (false, _) => {
+                    for case in &mut cases {
+                        case.extend(answer.own.iter().map(|own| (*own, false)));
+                    }
+                }
+                (true, Lanes::Any) => {}
+                (true, Lanes::Alike | Lanes::Four) => {
+                    let mut split = Vec::new();
+                    for case in cases {
+                        for own in &answer.own {
+                            let mut case = case.clone();
+                            case.push((*own, true));
+                            split.push(case);
+                        }
+                    }
+                    cases = split;
+                }
+            }
+        }
+        cases
     }
 }
 
@@ -99,7 +124,7 @@ impl Space {
 
     /// A machine on it.
     #[must_use]
-    pub fn machine(&self) -> Symbolic<'_> {
+    pub fn machine<const N: usize>(&self) -> Symbolic<'_, N> {
         Symbolic(self)
     }
 
@@ -115,13 +140,20 @@ impl Space {
         self.make(Node::Input(number, sort))
     }
 
-    fn make(&self, node: Node) -> Term {
-        self.terms.borrow_mut().make(node)
+    /// That all of these hold.
+    #[must_use]
+    pub fn all(&self, truths: &[Term]) -> Term {
+        let mut all = truths[0];
+        for truth in &truths[1..] {
+            if *truth != all {
+                all = self.make(Node::Op(Op::And, [all, *truth, all]));
+            }
+        }
+        all
     }
 
-    fn op(&self, op: Op, operands: &[Term]) -> Term {
-        let at = |i: usize| operands.get(i).copied().unwrap_or(operands[0]);
-        self.make(Node::Op(op, [at(0), at(1), at(2)]))
+    fn make(&self, node: Node) -> Term {
+        self.terms.borrow_mut().make(node)
     }
 }
 
@@ -129,9 +161,9 @@ impl Space {
 ///
 /// # Errors
 /// [`ExploreError`] if there is more to it than the budget allows.
-pub fn explore<'a, T>(
+pub fn explore<'a, const N: usize, T>(
     space: &'a Space,
-    mut work: impl FnMut(Symbolic<'a>) -> T,
+    mut work: impl FnMut(Symbolic<'a, N>) -> T,
 ) -> Result<Vec<Path<T>>, ExploreError> {
     let mut paths = Vec::new();
     space.given.borrow_mut().clear();
@@ -161,136 +193,153 @@ const TOKEN: u32 = 0x7fd0_0000;
 const PLACE: u32 = 0x000f_ffff;
 const SIGN: u32 = 0x8000_0000;
 
-impl Symbolic<'_> {
+impl<const N: usize> Symbolic<'_, N> {
     /// A term as a plain number, to be spread over lanes again.
     #[must_use]
     pub fn token(self, term: Term) -> f32 {
         f32::from_bits(TOKEN | term.place())
     }
 
-    fn spread(self, x: f32) -> Term {
+    fn term(self, x: f32) -> Term {
         let bits = x.to_bits();
         if bits & !PLACE & !SIGN != TOKEN {
             return self.0.make(Node::Number(bits));
         }
         let term = self.0.terms.borrow().at(bits & PLACE).expect("a NaN that carries no term");
-        if bits & SIGN == 0 { term } else { self.neg(term) }
+        if bits & SIGN == 0 {
+            return term;
+        }
+        let minus_zero = self.0.make(Node::Number(SIGN));
+        self.0.make(Node::Op(Op::Sub, [minus_zero, term, minus_zero]))
+    }
+
+    fn one(self, op: Op, x: [Term; N]) -> [Term; N] {
+        x.map(|x| self.0.make(Node::Op(op, [x; 3])))
+    }
+
+    fn two(self, op: Op, x: [Term; N], y: [Term; N]) -> [Term; N] {
+        from_fn(|i| self.0.make(Node::Op(op, [x[i], y[i], x[i]])))
+    }
+
+    fn three(self, op: Op, x: [Term; N], y: [Term; N], z: [Term; N]) -> [Term; N] {
+        from_fn(|i| self.0.make(Node::Op(op, [x[i], y[i], z[i]])))
     }
 }
 
-impl Machine for Symbolic<'_> {
-    type F = Term;
-    type I = Term;
-    type B = Term;
+impl<const N: usize> Machine for Symbolic<'_, N> {
+    type F = [Term; N];
+    type I = [Term; N];
+    type B = [Term; N];
     type Spu = optimized::host::Spu;
 
     fn spu(self) -> Self::Spu {
         optimized::host::Spu
     }
-    /// The first lane is taken for all.
-    fn lanes(self, x: [f32; LANES]) -> Term {
-        self.spread(x[0])
+    /// The first lanes are taken for all.
+    fn lanes(self, x: [f32; LANES]) -> [Term; N] {
+        from_fn(|i| self.term(x[i]))
     }
-    /// The first lane is taken for all.
-    fn lanes_i(self, x: [i32; LANES]) -> Term {
-        self.splat_i(x[0])
+    /// The first lanes are taken for all.
+    fn lanes_i(self, x: [i32; LANES]) -> [Term; N] {
+        from_fn(|i| self.0.make(Node::Integer(x[i])))
     }
-    fn to_array(self, x: Term) -> [f32; LANES] {
-        [self.token(x); LANES]
+    fn to_array(self, x: [Term; N]) -> [f32; LANES] {
+        from_fn(|i| self.token(x[i % N]))
     }
     /// Only constants leave.
-    fn to_array_i(self, x: Term) -> [i32; LANES] {
-        match self.0.terms.borrow().node(x) {
-            Node::Integer(x) => [x; LANES],
+    fn to_array_i(self, x: [Term; N]) -> [i32; LANES] {
+        from_fn(|i| match self.0.terms.borrow().node(x[i % N]) {
+            Node::Integer(x) => x,
             other => panic!("an integer leaves by the rim that is not known: {other:?}"),
-        }
+        })
     }
     /// None leaves.
-    fn to_bits(self, x: Term) -> u32 {
-        panic!("a truth leaves by the rim: {:?}", self.0.terms.borrow().node(x))
+    fn to_bits(self, x: [Term; N]) -> u32 {
+        panic!("a truth leaves by the rim: {:?}", self.0.terms.borrow().node(x[0]))
     }
-    fn splat(self, x: f32) -> Term {
-        self.spread(x)
+    fn splat(self, x: f32) -> [Term; N] {
+        [self.term(x); N]
     }
-    fn splat_i(self, x: i32) -> Term {
-        self.0.make(Node::Integer(x))
+    fn splat_i(self, x: i32) -> [Term; N] {
+        [self.0.make(Node::Integer(x)); N]
     }
-    fn add(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::Add, &[x, y])
+    fn add(self, x: Self::F, y: Self::F) -> Self::F {
+        self.two(Op::Add, x, y)
     }
-    fn sub(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::Sub, &[x, y])
+    fn sub(self, x: Self::F, y: Self::F) -> Self::F {
+        self.two(Op::Sub, x, y)
     }
-    fn mul(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::Mul, &[x, y])
+    fn mul(self, x: Self::F, y: Self::F) -> Self::F {
+        self.two(Op::Mul, x, y)
     }
-    fn div(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::Div, &[x, y])
+    fn div(self, x: Self::F, y: Self::F) -> Self::F {
+        self.two(Op::Div, x, y)
     }
-    fn sqrt(self, x: Term) -> Term {
-        self.0.op(Op::Sqrt, &[x])
+    fn sqrt(self, x: Self::F) -> Self::F {
+        self.one(Op::Sqrt, x)
     }
-    fn lt(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::Lt, &[x, y])
+    fn lt(self, x: Self::F, y: Self::F) -> Self::B {
+        self.two(Op::Lt, x, y)
     }
-    fn le(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::Le, &[x, y])
+    fn le(self, x: Self::F, y: Self::F) -> Self::B {
+        self.two(Op::Le, x, y)
     }
-    fn lt_i(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::LtI, &[x, y])
+    fn lt_i(self, x: Self::I, y: Self::I) -> Self::B {
+        self.two(Op::LtI, x, y)
     }
-    fn and(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::And, &[x, y])
+    fn and(self, x: Self::B, y: Self::B) -> Self::B {
+        self.two(Op::And, x, y)
     }
-    fn or(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::Or, &[x, y])
+    fn or(self, x: Self::B, y: Self::B) -> Self::B {
+        self.two(Op::Or, x, y)
     }
-    fn not(self, x: Term) -> Term {
-        self.0.op(Op::Not, &[x])
+    fn not(self, x: Self::B) -> Self::B {
+        self.one(Op::Not, x)
     }
-    fn select(self, choose: Term, yes: Term, no: Term) -> Term {
-        self.0.op(Op::Select, &[choose, yes, no])
+    fn select(self, choose: Self::B, yes: Self::F, no: Self::F) -> Self::F {
+        self.three(Op::Select, choose, yes, no)
     }
-    fn select_i(self, choose: Term, yes: Term, no: Term) -> Term {
-        self.0.op(Op::SelectI, &[choose, yes, no])
+    fn select_i(self, choose: Self::B, yes: Self::I, no: Self::I) -> Self::I {
+        self.three(Op::SelectI, choose, yes, no)
     }
-    fn add_i(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::AddI, &[x, y])
+    fn add_i(self, x: Self::I, y: Self::I) -> Self::I {
+        self.two(Op::AddI, x, y)
     }
-    fn or_i(self, x: Term, y: Term) -> Term {
-        self.0.op(Op::OrI, &[x, y])
+    fn or_i(self, x: Self::I, y: Self::I) -> Self::I {
+        self.two(Op::OrI, x, y)
     }
-    fn shl_16(self, x: Term) -> Term {
-        self.0.op(Op::Shl16, &[x])
+    fn shl_16(self, x: Self::I) -> Self::I {
+        self.one(Op::Shl16, x)
     }
-    fn shr_16(self, x: Term) -> Term {
-        self.0.op(Op::Shr16, &[x])
+    fn shr_16(self, x: Self::I) -> Self::I {
+        self.one(Op::Shr16, x)
     }
-    fn floor(self, x: Term) -> Term {
-        self.0.op(Op::Floor, &[x])
+    fn floor(self, x: Self::F) -> Self::I {
+        self.one(Op::Floor, x)
     }
-    fn truncate(self, x: Term) -> Term {
-        self.0.op(Op::Truncate, &[x])
+    fn truncate(self, x: Self::F) -> Self::I {
+        self.one(Op::Truncate, x)
     }
-    /// There are no other lanes to compare with: a kernel that asks is not one that can be proved so.
-    fn smallest(self, _: Term) -> Term {
-        panic!("the smallest of all lanes is asked for, and there is one")
+    /// There may be other lanes: a kernel that asks is not one that can be proved so.
+    fn smallest(self, _: Self::F) -> Self::F {
+        panic!("the smallest of all lanes is asked for, and not all are there")
     }
     /// As [`smallest`](Self::smallest).
-    fn largest(self, _: Term) -> Term {
-        panic!("the largest of all lanes is asked for, and there is one")
+    fn largest(self, _: Self::F) -> Self::F {
+        panic!("the largest of all lanes is asked for, and not all are there")
     }
-    fn any(self, own: Term, site: Site) -> bool {
+    fn any(self, x: Self::B, site: Site) -> bool {
+        let own = x.to_vec();
         let mut path = self.0.path.borrow_mut();
         if path.len() == MAX_DOORS {
             self.0.too_long.set(true);
             // A loop ends if nobody wants to go on.
             return false;
         }
-        // The same question has the same answer if the lanes are alike.
-        let before = path.iter().find(|answer| answer.own == own);
-        if let (Lanes::Alike, Some(answer)) = (self.0.lanes, before) {
-            return answer.any;
+        // The same question has the same answer if no lane is unknown.
+        let before = path.iter().find(|answer| answer.own == own).map(|answer| answer.any);
+        if let (Lanes::Alike | Lanes::Four, Some(any)) = (self.0.lanes, before) {
+            return any;
         }
         let any = self.0.given.borrow().get(path.len()).copied().unwrap_or(true);
         path.push(Answer { site, own, any });

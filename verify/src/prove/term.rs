@@ -184,6 +184,15 @@ impl Terms {
         ((place as usize) < self.nodes.len()).then_some(Term(place))
     }
 
+    /// What is joined by *and* to make a truth.
+    #[must_use]
+    pub fn conjuncts(&self, truth: Term) -> Vec<Term> {
+        match self.node(truth) {
+            Node::Op(Op::And, [x, y, _]) => [self.conjuncts(x), self.conjuncts(y)].concat(),
+            _ => vec![truth],
+        }
+    }
+
     /// All terms of which the given ones are made, and these, in an order in which each stands after its operands.
     #[must_use]
     pub fn below(&self, roots: &[Term]) -> Vec<Term> {

@@ -14,7 +14,7 @@
 use super::broken::{Breaker, Broken, Fault};
 use super::smt::{Numbers, query};
 use super::solver::{Reply, Solver};
-use super::symbolic::{Answer, Lanes, Path, Space, explore};
+use super::symbolic::{Answer, Lanes, Path, Space, Symbolic, explore};
 use super::term::{Node, Op, Sort, Term, Terms};
 use optimized::host::Scalar;
 use optimized::machine::{LANES, Machine};
@@ -37,6 +37,8 @@ pub trait Ask<M: Machine> {
 pub struct Statement<B> {
     /// Assumptions, each with its words.
     pub assume: Vec<(&'static str, B)>,
+    /// What is shown on the way, each from the assumptions and those before it, and may be used then. Nothing of the kernel is in it.
+    pub steps: Vec<(&'static str, B)>,
     /// Conclusions.
     pub conclude: Vec<(&'static str, B)>,
 }
@@ -131,7 +133,7 @@ pub struct Faults {
     /// Those that change nothing, as is stated.
     pub harmless: usize,
     /// Those of which no solver could tell in time.
-    pub open: usize,
+    pub open: Vec<String>,
     /// Seconds that it took.
     pub seconds: f64,
     /// What is wrong; empty if nothing is.
@@ -157,10 +159,10 @@ pub enum Outcome {
 pub struct Effort {
     /// For each question about the lemma.
     pub proof: Duration,
+    /// For each such question to a further solver, once one has answered.
+    pub second: Duration,
     /// For each fault.
     pub fault: Duration,
-    /// Whether all solvers are asked, and must agree, or only until one knows.
-    pub all_solvers: bool,
     /// At most so many faults of a lemma are tried, drawn from all.
     pub faults: usize,
 }
@@ -168,16 +170,16 @@ pub struct Effort {
 impl Effort {
     /// What everyday tests have.
     pub const EVERYDAY: Self = Self {
-        proof: Duration::from_secs(60),
-        fault: Duration::from_secs(20),
-        all_solvers: false,
-        faults: usize::MAX,
+        proof: Duration::from_secs(20),
+        second: Duration::ZERO,
+        fault: Duration::from_secs(5),
+        faults: 6,
     };
     /// What long runs have.
     pub const LONG: Self = Self {
-        proof: Duration::from_secs(900),
-        fault: Duration::from_secs(60),
-        all_solvers: true,
+        proof: Duration::from_secs(400),
+        second: Duration::from_secs(20),
+        fault: Duration::from_secs(30),
         faults: usize::MAX,
     };
 }
@@ -231,16 +233,16 @@ impl Symbols<'_> {
     }
 }
 
-impl<'a, M: Machine<F = Term, I = Term, B = Term>> Ask<M> for Symbols<'a> {
-    fn number(&mut self, name: &'static str) -> Term {
-        self.input(name, Sort::Number)
+impl<'a, const N: usize> Ask<Symbolic<'a, N>> for Symbols<'_> {
+    fn number(&mut self, name: &'static str) -> [Term; N] {
+        [self.input(name, Sort::Number); N]
     }
-    fn integer(&mut self, name: &'static str) -> Term {
-        self.input(name, Sort::Integer)
+    fn integer(&mut self, name: &'static str) -> [Term; N] {
+        [self.input(name, Sort::Integer); N]
     }
     fn plain(&mut self, name: &'static str) -> f32 {
         let term = self.input(name, Sort::Number);
-        self.space.machine().token(term)
+        self.space.machine::<N>().token(term)
     }
 }
 
@@ -259,16 +261,28 @@ impl Ask<Scalar> for Told<'_> {
     }
 }
 
+fn on_symbols<const N: usize>(
+    theorem: &impl Theorem,
+    lanes: Lanes,
+    wrong: Option<(usize, Fault)>,
+) -> Result<Explored, String> {
+    let (space, breaker, mut inputs) = (Space::new(lanes), Breaker::new(wrong), Vec::new());
+    let paths = explore(&space, |machine: Symbolic<'_, N>| {
+        breaker.restart();
+        let mut ask = Symbols { space: &space, inputs: &mut inputs };
+        let statement = theorem.state(machine, Broken { machine, breaker: &breaker }, &mut ask);
+        statement.map(|lanes| space.all(&lanes))
+    });
+    let paths = paths.map_err(|error| error.to_string())?;
+    Ok(Explored { terms: space.into_terms(), inputs, paths, faults: breaker.met() })
+}
+
 impl<T: Theorem> Provable for T {
     fn on_symbols(&self, lanes: Lanes, wrong: Option<(usize, Fault)>) -> Result<Explored, String> {
-        let (space, breaker, mut inputs) = (Space::new(lanes), Breaker::new(wrong), Vec::new());
-        let paths = explore(&space, |machine| {
-            breaker.restart();
-            let mut ask = Symbols { space: &space, inputs: &mut inputs };
-            self.state(machine, Broken { machine, breaker: &breaker }, &mut ask)
-        });
-        let paths = paths.map_err(|error| error.to_string())?;
-        Ok(Explored { terms: space.into_terms(), inputs, paths, faults: breaker.met() })
+        match lanes {
+            Lanes::Any | Lanes::Alike => on_symbols::<1>(self, lanes, wrong),
+            Lanes::Four => on_symbols::<4>(self, lanes, wrong),
+        }
     }
 
     fn on_scalars(
@@ -278,11 +292,15 @@ impl<T: Theorem> Provable for T {
     ) -> Statement<bool> {
         let breaker = Breaker::new(wrong);
         let kernel = Broken { machine: Scalar, breaker: &breaker };
-        let Statement { assume, conclude } = self.state(Scalar, kernel, &mut Told(value));
-        let first = |said: Vec<(&'static str, [bool; LANES])>| {
-            said.into_iter().map(|(words, lanes)| (words, lanes[0])).collect()
-        };
-        Statement { assume: first(assume), conclude: first(conclude) }
+        self.state(Scalar, kernel, &mut Told(value)).map(|lanes| lanes.iter().all(|holds| *holds))
+    }
+}
+
+impl<B> Statement<B> {
+    fn map<C>(self, mut each: impl FnMut(B) -> C) -> Statement<C> {
+        let mut all =
+            |said: Vec<(&'static str, B)>| said.into_iter().map(|(words, x)| (words, each(x))).collect();
+        Statement { assume: all(self.assume), steps: all(self.steps), conclude: all(self.conclude) }
     }
 }
 
@@ -334,21 +352,12 @@ pub fn break_each(lemmas: &[&Lemma], solvers: &[Solver], effort: &Effort, rng: &
         tried: 0,
         noticed: 0,
         harmless: 0,
-        open: 0,
+        open: Vec::new(),
         seconds: 0.0,
         wrong: Vec::new(),
     };
-    let mut left: Vec<Wrong> = match lemmas[0].statement.on_symbols(Lanes::Alike, None) {
-        Ok(explored) => {
-            let free = lemmas.iter().all(|lemma| lemma.numbers == Numbers::Free);
-            let told = explored.faults.iter().filter(|(_, fault)| !free || !fault.of_numbers());
-            told.map(|&(at, fault)| Wrong::Operation(at, fault)).collect()
-        }
-        Err(why) => {
-            faults.wrong.push(why);
-            return faults;
-        }
-    };
+    let mut left: Vec<Wrong> =
+        lemmas[0].faults().into_iter().map(|(at, fault)| Wrong::Operation(at, fault)).collect();
     if lemmas[0].solvers(solvers).is_empty() {
         return faults;
     }
@@ -394,13 +403,13 @@ pub fn break_each(lemmas: &[&Lemma], solvers: &[Solver], effort: &Effort, rng: &
                 (_, false) => {}
             }
         }
-        if own == 0 && faults.tried > 0 {
+        if own == 0 && faults.tried > 0 && effort.faults == usize::MAX {
             faults.wrong.push(format!("{} notices no fault: the prover may say yes to all", lemma.name));
         }
     }
     for wrong in left {
         match harmless(&wrong) {
-            _ if open.contains(&wrong) => faults.open += 1,
+            _ if open.contains(&wrong) => faults.open.push(format!("{wrong:?}")),
             Some(_) => faults.harmless += 1,
             None => faults.wrong.push(format!("{wrong:?} is not noticed")),
         }
@@ -411,6 +420,15 @@ pub fn break_each(lemmas: &[&Lemma], solvers: &[Solver], effort: &Effort, rng: &
 }
 
 impl Lemma {
+    /// What can be done wrong in its kernel that it could notice.
+    #[must_use]
+    pub fn faults(&self) -> Vec<(usize, Fault)> {
+        let faults =
+            self.statement.on_symbols(self.lanes, None).map_or(Vec::new(), |explored| explored.faults);
+        let counts = |(_, fault): &(usize, Fault)| self.numbers != Numbers::Free || !fault.of_numbers();
+        faults.into_iter().filter(counts).collect()
+    }
+
     /// What is wrong with the witness, if anything is.
     fn witnessed(&self) -> Vec<String> {
         let mut wrong = Vec::new();
@@ -455,7 +473,7 @@ impl Lemma {
             let values = self.some_inputs(explored, case, rng);
             let scalar = self.statement.on_scalars(&mut by_name(explored, &values), None);
             let computed = explored.terms.values(&values);
-            let takes = |answer: &Answer| computed.holds(answer.own) == answer.any;
+            let takes = |answer: &Answer| answer.own.iter().any(|own| computed.holds(*own)) == answer.any;
             let mut taken = explored.paths.iter().filter(|path| path.answers.iter().all(takes));
             let (Some(path), None) = (taken.next(), taken.next()) else {
                 finding.wrong.push(format!("{values:x?} take not exactly one path"));
@@ -483,18 +501,24 @@ impl Lemma {
     fn judge(&self, explored: &Explored, solvers: &[&Solver], effort: &Effort, finding: &mut Finding) {
         let mut said = Vec::new();
         for solver in solvers {
-            let found = self.fails(explored, std::slice::from_ref(solver), None, self.lanes, effort.proof);
-            match found {
-                Found::Unknown(why) => said.push((*solver, Outcome::NotShown(why))),
-                Found::Nothing => said.push((*solver, Outcome::Proved)),
-                Found::Inputs(values) => match self.replay(explored, &values) {
-                    Ok(inputs) => said.push((*solver, Outcome::Refuted(inputs))),
-                    Err(why) => said.push((*solver, Outcome::NotShown(why))),
-                },
-            }
-            if !effort.all_solvers && !matches!(said.last(), Some((_, Outcome::NotShown(_)))) {
+            let first = said.iter().all(|(_, outcome)| matches!(outcome, Outcome::NotShown(_)));
+            let limit = if first { effort.proof } else { effort.second };
+            if limit.is_zero() {
                 break;
             }
+            let found = match self.stepwise(explored, solver, limit) {
+                Err(why) => Found::Unknown(why),
+                Ok(()) => self.fails(explored, std::slice::from_ref(solver), None, self.lanes, limit),
+            };
+            let outcome = match found {
+                Found::Unknown(why) => Outcome::NotShown(why),
+                Found::Nothing => Outcome::Proved,
+                Found::Inputs(values) => match self.replay(explored, &values) {
+                    Ok(inputs) => Outcome::Refuted(inputs),
+                    Err(why) => Outcome::NotShown(why),
+                },
+            };
+            said.push((*solver, outcome));
         }
         let told = |outcome: &Outcome| !matches!(outcome, Outcome::NotShown(_));
         let proved = said.iter().any(|(_, outcome)| *outcome == Outcome::Proved);
@@ -544,12 +568,13 @@ impl Lemma {
             Wrong::Operation(at, fault) => (Some((at, fault)), None),
             Wrong::Assumption(i) => (None, Some(i)),
         };
-        // With all lanes alike, so that the counterexample can be replayed.
-        let explored = match self.statement.on_symbols(Lanes::Alike, fault) {
+        // With no lane unknown, so that the counterexample can be replayed.
+        let lanes = if self.lanes == Lanes::Any { Lanes::Alike } else { self.lanes };
+        let explored = match self.statement.on_symbols(lanes, fault) {
             Ok(explored) => explored,
             Err(why) => return Found::Unknown(why),
         };
-        match self.fails(&explored, solvers, left_out, Lanes::Alike, effort.fault) {
+        match self.fails(&explored, solvers, left_out, lanes, effort.fault) {
             Found::Inputs(values) if self.fails_for(&explored, &values, fault, left_out) => {
                 Found::Inputs(values)
             }
@@ -605,35 +630,54 @@ impl Lemma {
         let mut terms = explored.terms.clone();
         let mut unknown = None;
         for path in &explored.paths {
-            let mut all = path.result.conclude[0].1;
-            for (_, conclusion) in &path.result.conclude[1..] {
+            let Statement { assume, steps, conclude } = &path.result;
+            let mut all = conclude[0].1;
+            for (_, conclusion) in &conclude[1..] {
                 all = terms.make(Node::Op(Op::And, [all, *conclusion, all]));
             }
-            let mut wanted: Vec<(Term, bool)> = path.known(lanes).collect();
-            let kept = path.result.assume.iter().enumerate().filter(|(i, _)| Some(*i) != left_out);
-            wanted.extend(kept.map(|(_, (_, term))| (*term, true)));
-            wanted.push((all, false));
-            let text = match query(&terms, self.numbers, &sorts, &wanted) {
-                Ok(text) => text,
-                Err(error) => return Found::Unknown(error.to_string()),
-            };
-            let mut why = None;
-            for solver in solvers {
-                match solver.ask(&text, &sorts, limit) {
-                    Reply::Unsat => {
-                        why = None;
-                        break;
-                    }
-                    Reply::Sat(Some(values)) => return Found::Inputs(values),
-                    Reply::Sat(None) => {
-                        why = Some(format!("{}: sat, without values that can be read", solver.name));
-                    }
-                    Reply::Unknown(said) => why = Some(format!("{}: {said}", solver.name)),
+            let kept = assume.iter().enumerate().filter(|(i, _)| Some(*i) != left_out);
+            let mut given: Vec<(Term, bool)> = kept.map(|(_, (_, term))| (*term, true)).collect();
+            // Without an assumption a step may not follow any more.
+            if left_out.is_none() {
+                given.extend(steps.iter().map(|(_, step)| (*step, true)));
+            }
+            for mut wanted in path.known(lanes) {
+                wanted.extend(&given);
+                wanted.push((all, false));
+                let text = match query(&terms, self.numbers, &sorts, &wanted) {
+                    Ok(text) => text,
+                    Err(error) => return Found::Unknown(error.to_string()),
+                };
+                match ask_each(solvers, &text, &sorts, limit) {
+                    Found::Nothing => {}
+                    Found::Unknown(why) => unknown = unknown.or(Some(why)),
+                    found @ Found::Inputs(_) => return found,
                 }
             }
-            unknown = unknown.or(why);
         }
         unknown.map_or(Found::Nothing, Found::Unknown)
+    }
+
+    /// Shows each step from the assumptions and the steps before it; says which cannot be shown.
+    fn stepwise(&self, explored: &Explored, solver: &Solver, limit: Duration) -> Result<(), String> {
+        let sorts: Vec<Sort> = explored.inputs.iter().map(|(_, sort)| *sort).collect();
+        // No step depends on the kernel, and so none on the path.
+        let Statement { assume, steps, .. } = &explored.paths[0].result;
+        let mut given: Vec<(Term, bool)> = assume.iter().map(|(_, term)| (*term, true)).collect();
+        for (words, step) in steps {
+            for lane in explored.terms.conjuncts(*step) {
+                let mut wanted = given.clone();
+                wanted.push((lane, false));
+                let text = query(&explored.terms, self.numbers, &sorts, &wanted);
+                let text = text.map_err(|error| error.to_string())?;
+                match solver.ask(&text, &sorts, limit) {
+                    Reply::Unsat => {}
+                    other => return Err(format!("the step that {words}: {other:?}")),
+                }
+            }
+            given.push((*step, true));
+        }
+        Ok(())
     }
 
     /// The inputs by name, if the lemma fails for them on the scalar machine.
@@ -656,7 +700,7 @@ impl Lemma {
         let sorts: Vec<Sort> = explored.inputs.iter().map(|(_, sort)| *sort).collect();
         let path = explored.paths.first().ok_or("there is no path")?;
         let (_, conclusion) = path.result.conclude.first().ok_or("nothing is concluded")?;
-        let mut wanted: Vec<(Term, bool)> = path.known(self.lanes).collect();
+        let mut wanted = path.known(self.lanes).swap_remove(0);
         wanted.extend(path.result.assume.iter().map(|(_, term)| (*term, true)));
         wanted.push((*conclusion, false));
         let mut text = String::new();
@@ -667,6 +711,20 @@ impl Lemma {
             .map(|query| text + &query)
             .map_err(|error| error.to_string())
     }
+}
+
+/// Asks one solver after the other, until one knows.
+fn ask_each(solvers: &[&Solver], text: &str, sorts: &[Sort], limit: Duration) -> Found {
+    let mut unknown = "there is no solver".to_owned();
+    for solver in solvers {
+        match solver.ask(text, sorts, limit) {
+            Reply::Unsat => return Found::Nothing,
+            Reply::Sat(Some(values)) => return Found::Inputs(values),
+            Reply::Sat(None) => unknown = format!("{}: sat, without values that can be read", solver.name),
+            Reply::Unknown(said) => unknown = format!("{}: {said}", solver.name),
+        }
+    }
+    Found::Unknown(unknown)
 }
 
 /// Bits by the name of the input.

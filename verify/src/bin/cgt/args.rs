@@ -36,6 +36,7 @@ Examples:
   cgt render sphereflake:4 flake.png --size 800x600
   cgt bench 1hvr --peers embree --threads 1
   cgt spu 1hvr                          cycles on a PlayStation 3, stage by stage
+  cgt prove                             proofs of the kernels, by solvers
   cgt scenes                            what can be named";
 
 #[derive(Debug, Subcommand)]
@@ -49,6 +50,8 @@ pub(crate) enum Command {
     Render(Render),
     /// Count the cycles of the PlayStation 3's processor: by stage, with mispredicts, memory and what each trick saves
     Spu(Spu),
+    /// Prove what the kernels do for all inputs, with the solvers that are there (z3, bitwuzla, cvc5)
+    Prove(Prove),
     /// List the scenes that have names, and the formats that are read
     Scenes,
 }
@@ -247,6 +250,21 @@ pub(crate) struct View {
     /// Threads, at most 1024; 0 is one a core
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u16).range(..=1024))]
     pub(crate) threads: u16,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Prove {
+    /// Lemmas, by the beginnings of their names, as walk or nearest.order [default: all]
+    pub(crate) lemmas: Vec<String>,
+    /// Prove also what takes long, ask every solver, and do every operation of every kernel wrong in every way; minutes
+    #[arg(long)]
+    pub(crate) long: bool,
+    /// Write what was found to a file as well
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// Write each lemma into a folder as the solver gets it, in SMT-LIB
+    #[arg(long, value_name = "DIR")]
+    pub(crate) smt: Option<PathBuf>,
 }
 
 impl View {

@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         Some(Command::Render(args)) => cmd::render::render(&args),
         Some(Command::Bench(args)) => cmd::bench::run(&args),
         Some(Command::Spu(args)) => cmd::spu::run(&args),
+        Some(Command::Prove(args)) => cmd::prove::run(&args),
         Some(Command::Scenes) => cmd::scenes::scenes(),
     };
     outcome.unwrap_or_else(|failure| {

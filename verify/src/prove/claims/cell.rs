@@ -57,6 +57,7 @@ impl Theorem for Monotone {
         let last = m.splat_i(axis.n - 1);
         let zero = m.splat_i(0);
         Statement {
+            steps: Vec::new(),
             assume: vec![("scaled, the two are in order", m.le(scaled(x), scaled(y)))],
             conclude: vec![
                 ("their cells are in order", le_i(m, cell_x, cell_y)),
@@ -88,6 +89,7 @@ impl Theorem for Branches {
             scaled
         };
         Statement {
+            steps: Vec::new(),
             assume: vec![],
             conclude: vec![("it is the cell of the branching form", same_i(m, cell, wanted))],
         }
@@ -107,6 +109,7 @@ impl Theorem for Difference {
         let (x, y, origin) = (ask.number("x"), ask.number("y"), ask.number("origin"));
         let order = m.le(m.sub(x, origin), m.sub(y, origin));
         Statement {
+            steps: Vec::new(),
             assume: vec![("the two are in order", m.le(x, y)), ("the origin is finite", finite(m, origin))],
             conclude: vec![("less the origin they are in order", order)],
         }
@@ -126,6 +129,7 @@ impl Theorem for Product {
         let (x, y, inverse) = (ask.number("x"), ask.number("y"), ask.number("inverse"));
         let order = m.le(m.mul(x, inverse), m.mul(y, inverse));
         Statement {
+            steps: Vec::new(),
             assume: vec![
                 ("the two are in order", m.le(x, y)),
                 ("the factor is not negative", m.le(m.splat(0.0), inverse)),
@@ -148,6 +152,7 @@ impl Theorem for Between {
         let (lo, p, hi) = (ask.number("lo"), ask.number("P"), ask.number("hi"));
         let plane = ask.number("a plane");
         Statement {
+            steps: Vec::new(),
             assume: vec![("the point is not below the box", m.le(lo, p)), ("nor above it", m.le(p, hi))],
             conclude: vec![
                 ("where lo is in that cell or a later one, so is P", {
@@ -174,6 +179,7 @@ impl Theorem for Corners {
         let (lo, hi) = (ask.number("lo"), ask.number("hi"));
         let (begin, end) = (ask.number("begin of the middle cell"), ask.number("end of the middle cell"));
         Statement {
+            steps: Vec::new(),
             assume: vec![
                 ("the box begins before the middle cell", m.lt(lo, begin)),
                 ("and ends after it", m.le(end, hi)),
@@ -203,6 +209,7 @@ impl Theorem for Unit {
         });
         let small = m.and(m.lt(m.splat(0.0), r), m.le(m.add(r, r), m.splat(self.diameter)));
         Statement {
+            steps: Vec::new(),
             assume: vec![("the diameter is at most that", small)],
             conclude: vec![(
                 "the corners' cells are equal or neighbours",

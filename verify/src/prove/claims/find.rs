@@ -1,38 +1,42 @@
 //! Claim: without its roundings the f32 stage decides rightly. Its roundings are bounded in [`optimized::bound`], for every unit
 //! roundoff below 1/8, and run over all inputs of domains of small floats in `tests/bound.rs`.
 //!
-//! The shipped [`Rays::find`](optimized::certain::Rays::find) runs on real numbers here, with a bound of zero: a ray (1, y, z) in distances A along the
+//! The shipped [`Rays::find`](optimized::certain::Rays::find) runs on real numbers here, with any bound of the right sign: a ray (1, y, z) in distances A along the
 //! packet's major axis, a ball of radius r about c, both relative to the eye.
 //!
 //! - `find.line`: what it compares r² with is the squared distance of the centre from the line, times a = 1 + y² + z² (Lagrange's identity).
 //! - `find.possible`: if any point of the ray lies on the sphere, it is possibly hit.
 //! - `find.root`: from outside, the nearest such point lies in the interval that it gives; `find.far`: from inside, the only one ahead.
-//! - `find.certain`: what it calls certain has such a point.
+//! - `find.certain`: what it calls certain has such a point; `find.miss`: what the line misses is dropped; `find.unknown`: where it is not known
+//!   whether the eye is inside, nothing is certain.
 
-use super::{NONE, same};
+use super::{NONE, implies, same};
+use crate::prove::broken::Fault;
 use crate::prove::smt::Numbers;
 use crate::prove::symbolic::Lanes;
-use crate::prove::theorem::{Ask, Expected, Lemma, Statement, Theorem};
+use crate::prove::theorem::{Ask, Expected, Lemma, Statement, Theorem, Wrong};
 use optimized::bound::Bound;
-use optimized::certain::{Ball, Rays, Side};
+use optimized::certain::{Ball, Found, Rays, Side};
 use optimized::machine::Machine;
-
-const ZERO: Bound = Bound { hit_above: 0.0, miss_below: 0.0, root: 0.0 };
 
 /// A ray and a ball.
 struct Scene<M: Machine> {
     slope: [M::F; 2],
     center: [f32; 3],
-    radius: M::F,
     rr: f32,
+    bound: Bound,
 }
 
 fn scene<M: Machine>(ask: &mut impl Ask<M>) -> Scene<M> {
     Scene {
         slope: [ask.number("y"), ask.number("z")],
         center: ["c A", "c Y", "c Z"].map(|name| ask.plain(name)),
-        radius: ask.number("r"),
         rr: ask.plain("rr"),
+        bound: Bound {
+            hit_above: ask.plain("hit above"),
+            miss_below: ask.plain("miss below"),
+            root: ask.plain("root"),
+        },
     }
 }
 
@@ -47,13 +51,6 @@ impl<M: Machine> Scene<M> {
 
     fn center(&self, m: M) -> [M::F; 3] {
         self.center.map(|x| m.splat(x))
-    }
-
-    /// The radius and its square.
-    fn round(&self, m: M) -> (&'static str, M::B) {
-        let positive = m.lt(m.splat(0.0), self.radius);
-        let rr = m.splat(self.rr);
-        ("rr is the square of a radius", m.and(positive, same(m, rr, m.mul(self.radius, self.radius))))
     }
 
     /// Whether the point at a distance lies on the sphere.
@@ -74,11 +71,12 @@ impl<M: Machine> Scene<M> {
         m: M,
         kernel: K,
         side: Side,
-    ) -> Option<[M::F; 2]> {
+    ) -> Option<Found<K>> {
+        let zero = m.splat(0.0);
+        let everywhere = m.le(zero, zero);
         let rays = Rays::<K>::new(kernel, self.slope);
-        let ball = Ball { center: self.center, rr: self.rr, bound: ZERO, side };
-        let everywhere = m.le(m.splat(0.0), m.splat(0.0));
-        rays.find(kernel, &ball, everywhere).map(|found| [found.lo, found.hi])
+        let ball = Ball { center: self.center, rr: self.rr, bound: self.bound, side };
+        rays.find(kernel, &ball, everywhere)
     }
 }
 
@@ -101,6 +99,7 @@ impl Theorem for Line {
         let along = s.along(m);
         let wanted = m.sub(m.mul(a, square(m, [ca, cy, cz])), m.mul(along, along));
         Statement {
+            steps: Vec::new(),
             assume: vec![],
             conclude: vec![(
                 "|e|² is a |c|² less the square along the ray",
@@ -120,6 +119,12 @@ enum What {
     Root,
     /// From inside the farther.
     Far,
+    /// What is certain from that side.
+    Certain(Side),
+    /// The line misses, seen from that side.
+    Miss(Side),
+    /// It is not known on which side the eye is.
+    Unknown,
 }
 
 impl Theorem for What {
@@ -132,44 +137,109 @@ impl Theorem for What {
         let s = scene(ask);
         let at = ask.number("A");
         let zero = m.splat(0.0);
+        let (never, far) = (m.lt(zero, zero), m.splat(f32::INFINITY));
         let (a, along) = (square(m, s.dir(m)), s.along(m));
-        let power = m.sub(square(m, s.center(m)), m.splat(s.rr));
-        let mut assume = vec![
-            s.round(m),
-            ("the point lies on the sphere", s.touches(m, at)),
-            ("and ahead", m.lt(zero, at)),
-        ];
-        let side = match self {
-            Self::Possible => Side::Unknown,
+        let [above, below, root] = [s.bound.hit_above, s.bound.miss_below, s.bound.root].map(|x| m.splat(x));
+        let discriminant = {
+            let distance = m.sub(m.mul(a, square(m, s.center(m))), m.mul(along, along));
+            m.sub(m.mul(a, m.splat(s.rr)), distance)
+        };
+        let above = ("the bound of a hit is not negative", m.le(zero, above));
+        let misses = ("that of a miss is not positive", m.le(below, zero));
+        let wide = ("that of the root is not negative", m.le(zero, root));
+        let touches = ("the point lies on the sphere", s.touches(m, at));
+        let ahead = ("the point lies ahead", m.lt(zero, at));
+        let (side, assume) = match self {
+            Self::Possible => (Side::Unknown, vec![misses, touches]),
             Self::Root => {
-                assume.push(("the eye is outside", m.lt(zero, power)));
-                assume.push(("it is the nearer of two", m.le(m.mul(at, a), along)));
-                Side::Outside
+                let nearer = ("it is the nearer of two", m.le(m.mul(at, a), along));
+                (Side::Outside, vec![above, misses, wide, touches, ahead, nearer])
             }
             Self::Far => {
-                assume.push(("the eye is inside", m.lt(power, zero)));
-                Side::Inside
+                let power = m.sub(square(m, s.center(m)), m.splat(s.rr));
+                let inside = ("the eye is inside", m.lt(power, zero));
+                (Side::Inside, vec![above, misses, wide, touches, ahead, inside])
             }
+            Self::Certain(side) => {
+                // The root itself, by the formula of the schools.
+                let half = m.sqrt(discriminant);
+                let sum = if *side == Side::Outside { m.sub(along, half) } else { m.add(along, half) };
+                (*side, vec![above, misses, wide, ("the point is the root", same(m, m.mul(at, a), sum))])
+            }
+            Self::Miss(side) => {
+                (*side, vec![("the line misses by more than the bound", m.lt(discriminant, below))])
+            }
+            Self::Unknown => (Side::Unknown, vec![]),
         };
-        let found = s.find(m, kernel, side);
-        let never = m.lt(zero, zero);
-        let conclude = match (self, found) {
+        let conclude = match (self, s.find(m, kernel, side)) {
+            (Self::Certain(_), Some(found)) => vec![
+                (touches.0, implies(m, found.certain, touches.1)),
+                (ahead.0, implies(m, found.certain, ahead.1)),
+            ],
+            (Self::Miss(_), Some(found)) => vec![("the sphere is not possibly hit", m.not(found.possible))],
+            (Self::Unknown, Some(found)) => vec![
+                ("no hit is certain", m.not(found.certain)),
+                ("its root may lie anywhere", m.and(m.le(found.lo, zero), m.le(far, found.hi))),
+            ],
+            // Of what is missed nothing is certain.
+            (Self::Certain(_) | Self::Miss(_) | Self::Unknown, None) => {
+                vec![("nothing is claimed of a miss", m.not(never))]
+            }
             (_, None) => vec![("the sphere is not missed", never)],
-            (Self::Possible, Some(_)) => vec![("the sphere is possibly hit", m.not(never))],
-            (_, Some([lo, hi])) => {
-                vec![("the point lies in the interval", m.and(m.le(lo, at), m.le(at, hi)))]
-            }
+            (Self::Possible, Some(found)) => vec![("the sphere is possibly hit", found.possible)],
+            (_, Some(found)) => vec![
+                ("the sphere is possibly hit", found.possible),
+                ("the point lies in the interval", m.and(m.le(found.lo, at), m.le(at, found.hi))),
+            ],
         };
-        Statement { assume, conclude }
+        Statement { steps: Vec::new(), assume, conclude }
     }
 }
 
 /// On the axis, from 1 before it.
-const AHEAD: &[(&str, u32)] =
-    &[("y", 0), ("z", 0), ("c A", TWO), ("c Y", 0), ("c Z", 0), ("r", ONE), ("rr", ONE), ("A", ONE)];
+const AHEAD: &[(&str, u32)] = &[
+    ("y", 0),
+    ("z", 0),
+    ("c A", TWO),
+    ("c Y", 0),
+    ("c Z", 0),
+    ("r", ONE),
+    ("rr", ONE),
+    ("A", ONE),
+    ("hit above", 0),
+    ("miss below", 0),
+    ("root", 0),
+];
 /// From the centre.
-const INSIDE: &[(&str, u32)] =
-    &[("y", 0), ("z", 0), ("c A", 0), ("c Y", 0), ("c Z", 0), ("r", ONE), ("rr", ONE), ("A", ONE)];
+const INSIDE: &[(&str, u32)] = &[
+    ("y", 0),
+    ("z", 0),
+    ("c A", 0),
+    ("c Y", 0),
+    ("c Z", 0),
+    ("r", ONE),
+    ("rr", ONE),
+    ("A", ONE),
+    ("hit above", 0),
+    ("miss below", 0),
+    ("root", 0),
+];
+
+/// Beside the ray.
+const BESIDE: &[(&str, u32)] = &[
+    ("y", 0),
+    ("z", 0),
+    ("c A", TWO),
+    ("c Y", TWO),
+    ("c Z", 0),
+    ("rr", ONE),
+    ("A", ONE),
+    ("hit above", 0),
+    ("miss below", 0),
+    ("root", 0),
+];
+
+const UNKNOWN: &str = "optimized::certain::Rays::find, side unknown";
 
 /// The lemmas.
 #[must_use]
@@ -184,7 +254,22 @@ pub fn lemmas() -> Vec<Lemma> {
         expected: Expected::Holds,
         long: false,
         witness,
-        harmless: &[],
+        harmless: if kernel == UNKNOWN {
+            &[
+                (Wrong::Operation(4, Fault::FirstNumber), "1/a is used where the side is known"),
+                (Wrong::Operation(22, Fault::Swapped), "a number is not below itself, either way"),
+            ]
+        } else if kernel == NONE {
+            &[]
+        } else {
+            &[
+                (Wrong::Operation(28, Fault::Border), "of two equal numbers either is the greater"),
+                (Wrong::Operation(33, Fault::Border), "of two equal numbers either is the greater"),
+                (Wrong::Operation(39, Fault::FirstNumber), "the bound of the root is for rounding"),
+                (Wrong::Operation(40, Fault::FirstNumber), "the bound of the root is for rounding"),
+                (Wrong::Operation(41, Fault::Border), "a root ahead has its upper end above 0"),
+            ]
+        },
         statement,
     };
     let find = "optimized::certain::Rays::find";
@@ -198,10 +283,31 @@ pub fn lemmas() -> Vec<Lemma> {
         ),
         lemma(
             "find.possible",
-            find,
+            UNKNOWN,
             "Without rounding, a sphere that has a point of the ray ahead is possibly hit",
             AHEAD,
             Box::new(What::Possible),
+        ),
+        lemma(
+            "find.unknown",
+            UNKNOWN,
+            "Where it is not known on which side of the surface the eye is, no hit is certain",
+            AHEAD,
+            Box::new(What::Unknown),
+        ),
+        lemma(
+            "find.miss.unknown",
+            UNKNOWN,
+            "So it is where it is not known on which side the eye is",
+            BESIDE,
+            Box::new(What::Miss(Side::Unknown)),
+        ),
+        lemma(
+            "find.miss",
+            find,
+            "Without rounding, a sphere that the line misses is not possibly hit",
+            BESIDE,
+            Box::new(What::Miss(Side::Outside)),
         ),
         lemma(
             "find.root",
@@ -216,6 +322,20 @@ pub fn lemmas() -> Vec<Lemma> {
             "Without rounding, the root ahead of a sphere seen from inside is the one that is found",
             INSIDE,
             Box::new(What::Far),
+        ),
+        lemma(
+            "find.certain.outside",
+            find,
+            "Without rounding, a hit that is certain from outside has the point that is found",
+            AHEAD,
+            Box::new(What::Certain(Side::Outside)),
+        ),
+        lemma(
+            "find.certain.inside",
+            find,
+            "Without rounding, a hit that is certain from inside has the point that is found",
+            INSIDE,
+            Box::new(What::Certain(Side::Inside)),
         ),
     ]
 }

@@ -1,21 +1,138 @@
-//! The claims that are proved, one to a file.
+//! The claims that are proved, one to a file, and the table of them.
 
 pub mod cell;
 pub mod find;
 pub mod nearest;
 pub mod queue;
+pub mod visible;
 pub mod walk;
 
-use super::theorem::Lemma;
+use super::theorem::{Expected, Lemma};
+use crate::report::Evidence;
 use optimized::machine::Machine;
 
 /// The kernel of a lemma that is about none.
-const NONE: &str = "none";
+pub const NONE: &str = "none";
+
+/// A claim of the suite, and the lemmas that it rests on.
+#[derive(Clone, Copy, Debug)]
+pub struct Claim {
+    /// What is claimed.
+    pub statement: &'static str,
+    /// The kind of evidence.
+    pub evidence: Evidence,
+    /// The names of the lemmas.
+    pub lemmas: &'static [&'static str],
+    /// What it rests on beside them.
+    pub beside: &'static str,
+}
+
+/// What is claimed of kernels for all inputs.
+pub const CLAIMS: [Claim; 9] = [
+    Claim {
+        statement: "The mended flattened loop visits the cells of the nested loops in their order, and ends",
+        evidence: Evidence::Proved,
+        lemmas: &["walk.successor", "walk.empty", "walk.forward"],
+        beside: "all 32-bit bounds; by induction, and start and end exhausted over all pairs of rectangles within 6x6 cells",
+    },
+    Claim {
+        statement: "The paper's loop as printed does",
+        evidence: Evidence::Refuted,
+        lemmas: &["walk.printed.any", "walk.printed.right", "walk.printed.wide", "walk.printed.stale"],
+        beside: "one slice of 2x2 cells; right if and only if all slices have one rectangle, one cell wide on an axis",
+    },
+    Claim {
+        statement: "A push puts the id first, keeps the order of fifteen others, loses exactly the oldest, and is never taken for empty",
+        evidence: Evidence::Proved,
+        lemmas: &["queue.push", "queue.occupied"],
+        beside: "all contents and ids; all 4,140 coincidences of eight corners exhausted",
+    },
+    Claim {
+        statement: "Kernels in selects do what their branching forms do: the step of the walk, the cell map, the nearest hit",
+        evidence: Evidence::Proved,
+        lemmas: &[
+            "walk.successor",
+            "cell.branches",
+            "nearest.branches.textbook",
+            "nearest.branches.perpendicular",
+        ],
+        beside: "all 32-bit inputs",
+    },
+    Claim {
+        statement: "The cell map is monotone over all f32, for every grid, so a ball's box range holds the cell of each of its points",
+        evidence: Evidence::Proved,
+        lemmas: &["cell.monotone", "cell.difference", "cell.product", "cell.between"],
+        beside: "that rounding keeps the order of products is its definition; all 2^32 f32 exhausted for given grids",
+    },
+    Claim {
+        statement: "Eight corners miss no cell if objects are no larger than cells (the paper)",
+        evidence: Evidence::Refuted,
+        lemmas: &["cell.corners.equal", "cell.corners.below", "cell.corners"],
+        beside: "the f32 next below 0.5 with radius 0.5 in cells of 1; 2⁻¹⁴ of a cell less is enough there, and each run certifies its own grid",
+    },
+    Claim {
+        statement: "The nearest hit with the lowest id stays, in whatever order spheres come; what is not marked is certain",
+        evidence: Evidence::Proved,
+        lemmas: &[
+            "nearest.rule.textbook",
+            "nearest.rule.perpendicular",
+            "nearest.order.textbook",
+            "nearest.order.perpendicular",
+            "nearest.tie.textbook",
+            "nearest.tie.perpendicular",
+            "nearest.twice.textbook",
+            "nearest.twice.perpendicular",
+            "nearest.rival",
+            "nearest.unmarked",
+            "nearest.marked",
+        ],
+        beside: "whatever the arithmetic gives, and whatever other rays of the packet do",
+    },
+    Claim {
+        statement: "The f32 stage of the exact plan decides rightly but for rounding",
+        evidence: Evidence::Proved,
+        lemmas: &[
+            "find.line",
+            "find.possible",
+            "find.unknown",
+            "find.miss",
+            "find.miss.unknown",
+            "find.root",
+            "find.far",
+            "find.certain.outside",
+            "find.certain.inside",
+        ],
+        beside: "the shipped formulas over the reals; rounding has its own bound, below",
+    },
+    Claim {
+        statement: "Slices and culling lose no sphere that a ray of the packet hits, but for rounding",
+        evidence: Evidence::Proved,
+        lemmas: &["visible.slice", "visible.slice.widened", "visible.planes", "visible.planes.drop"],
+        beside: "the shipped formulas over the reals; rounding has its margins, below",
+    },
+];
+
+impl Claim {
+    /// What stands beside it in the table: counted, not remembered.
+    #[must_use]
+    pub fn figure(&self) -> String {
+        let lemmas: Vec<Lemma> =
+            lemmas().into_iter().filter(|lemma| self.lemmas.contains(&lemma.name)).collect();
+        let mut kernels: Vec<(&str, usize)> = Vec::new();
+        for lemma in lemmas.iter().filter(|lemma| lemma.expected == Expected::Holds) {
+            if lemma.kernel != NONE && !kernels.iter().any(|(kernel, _)| *kernel == lemma.kernel) {
+                kernels.push((lemma.kernel, lemma.faults().len()));
+            }
+        }
+        let faults: usize = kernels.iter().map(|(_, faults)| faults).sum();
+        format!("{} lemmas, {faults} faults under the prover; {}", lemmas.len(), self.beside)
+    }
+}
 
 /// All lemmas, in the order of the claims.
 #[must_use]
 pub fn lemmas() -> Vec<Lemma> {
-    [walk::lemmas(), queue::lemmas(), cell::lemmas(), nearest::lemmas(), find::lemmas()]
+    [walk::lemmas(), queue::lemmas(), cell::lemmas(), nearest::lemmas(), find::lemmas(), visible::lemmas()]
         .into_iter()
         .flatten()
         .collect()
@@ -48,4 +165,10 @@ fn all<M: Machine>(m: M, truths: &[M::B]) -> M::B {
         all = m.and(all, *truth);
     }
     all
+}
+
+/// The first of each pair is not above the second.
+fn le_all<M: Machine>(m: M, pairs: &[[M::F; 2]]) -> M::B {
+    let truths: Vec<M::B> = pairs.iter().map(|[x, y]| m.le(*x, *y)).collect();
+    all(m, &truths)
 }

@@ -52,6 +52,7 @@ impl Theorem for Order {
         let forth = meet(meet(start(), &one, a), &other, b);
         let back = meet(meet(start(), &other, b), &one, a);
         Statement {
+            steps: Vec::new(),
             assume: vec![("the nearest t so far is a number", m.le(t, t))],
             conclude: vec![
                 ("t is the same", same(m, forth.t, back.t)),
@@ -115,6 +116,7 @@ impl Theorem for Rule {
             (m.select(hit, t, start.t), m.select_i(hit, id, start.id))
         };
         Statement {
+            steps: Vec::new(),
             assume: vec![("the nearest t so far is a number", m.le(start.t, start.t))],
             conclude: vec![
                 ("t is that of the contract", same(m, after.t, t)),
@@ -142,6 +144,7 @@ impl Theorem for Twice {
         let twice = once.meet(kernel, self.0, &block, &sphere, 3);
         let nearer = m.le(once.t, start.t);
         Statement {
+            steps: Vec::new(),
             assume: vec![("the nearest t so far is a number", m.le(start.t, start.t))],
             conclude: vec![
                 ("t is the same", same(m, once.t, twice.t)),
@@ -188,6 +191,7 @@ impl Theorem for Rival {
         );
         let again = same_i(m, before.id, new);
         Statement {
+            steps: Vec::new(),
             assume: vec![
                 ("the owner's lower end is a number", m.le(before.lo, before.lo)),
                 ("the rival's lower end is a number", m.le(before.rival, before.rival)),
@@ -240,6 +244,7 @@ impl Theorem for Unmarked {
         let unmarked = m.not(nearest.marked(kernel));
         let far = m.splat(f32::INFINITY);
         Statement {
+            steps: Vec::new(),
             assume: vec![
                 ("the owner's root is not above its upper end", m.le(own, nearest.hi)),
                 ("the other's root is not below the rival's lower end", m.le(nearest.rival, other)),
@@ -269,6 +274,7 @@ impl Theorem for Marked {
         };
         let far = m.splat(f32::INFINITY);
         Statement {
+            steps: Vec::new(),
             assume: vec![("the ray is marked", nearest.marked(kernel))],
             conclude: vec![
                 ("another sphere may be hit", m.lt(nearest.rival, far)),

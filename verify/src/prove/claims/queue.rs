@@ -37,6 +37,7 @@ impl Theorem for Push {
         let zero = m.splat_i(0);
         let bits = m.and(m.not(m.lt_i(id, zero)), m.lt_i(id, m.splat_i(1 << 16)));
         Statement {
+            steps: Vec::new(),
             assume: vec![("the id has 16 bits", bits)],
             conclude: vec![
                 ("the newest slot holds the id", same_i(m, after[0], id)),
@@ -66,6 +67,7 @@ impl Theorem for Occupied {
             .collect();
         let below = m.and(m.not(m.lt_i(id, m.splat_i(0))), m.lt_i(id, empty));
         Statement {
+            steps: Vec::new(),
             assume: vec![("the id is below the one that means empty", below)],
             conclude: vec![
                 ("its slot is not empty", m.not(same_i(m, after[0], empty))),

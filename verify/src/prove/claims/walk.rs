@@ -109,6 +109,7 @@ impl Theorem for Successor {
         let within = place.within(m, &place.at);
         let conclusion = equal(m, &place.step(kernel), &nested(m, &place));
         Statement {
+            steps: Vec::new(),
             assume: vec![("the cell lies in its slice's rectangle", within)],
             conclude: vec![("the step goes where the nested loops go", conclusion)],
         }
@@ -129,6 +130,7 @@ impl Theorem for Empty {
         let empty = m.or(m.lt_i(last[0], first[0]), m.lt_i(last[1], first[1]));
         let conclusion = equal(m, &place.step(kernel), &place.first_of_next(m));
         Statement {
+            steps: Vec::new(),
             assume: vec![("the slice has no cell", empty)],
             conclude: vec![("the step goes to the first cell of the next slice", conclusion)],
         }
@@ -152,6 +154,7 @@ impl Theorem for Forward {
         let later = m.or(m.lt_i(j, next.j), in_row);
         let within = place.within(m, &next);
         Statement {
+            steps: Vec::new(),
             assume: vec![("the cell lies in its slice's rectangle", place.within(m, &place.at))],
             conclude: vec![
                 ("no slice is left for an earlier one or left out", {
@@ -222,7 +225,7 @@ impl Theorem for Printed {
                 ("the printed loop goes elsewhere", m.not(right))
             }
         };
-        Statement { assume, conclude: vec![conclusion] }
+        Statement { steps: Vec::new(), assume, conclude: vec![conclusion] }
     }
 }
 

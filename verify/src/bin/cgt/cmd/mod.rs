@@ -2,6 +2,7 @@
 
 pub(crate) mod bench;
 mod files;
+pub(crate) mod prove;
 pub(crate) mod render;
 pub(crate) mod scenes;
 pub(crate) mod spu;

@@ -1,0 +1,46 @@
+//! `cgt prove`: the shipped kernels put to the solvers that are there.
+
+use super::files;
+use crate::args::Prove as Args;
+use crate::{Failure, progress, say};
+use std::process::ExitCode;
+use verify::picture::write_atomically;
+use verify::prove::claims::lemmas;
+use verify::prove::run::{Proofs, run as prove};
+use verify::prove::solver::Solver;
+use verify::prove::theorem::Lemma;
+use verify::seed::seed;
+
+/// No verdict: there is no solver, or none could tell.
+const NO_VERDICT: u8 = 3;
+
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let wanted =
+        |lemma: &Lemma| args.lemmas.is_empty() || args.lemmas.iter().any(|name| lemma.name.starts_with(name));
+    let chosen: Vec<Lemma> = lemmas().into_iter().filter(wanted).collect();
+    if chosen.is_empty() {
+        return Err(format!("no lemma is named {}", args.lemmas.join(" or ")).into());
+    }
+    if let Some(folder) = &args.smt {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| format!("the folder `{}`: {error}", folder.display()))?;
+        for lemma in &chosen {
+            let text = lemma.text().map_err(|why| format!("{}: {why}", lemma.name))?;
+            write_atomically(&folder.join(format!("{}.smt2", lemma.name)), text.as_bytes())?;
+        }
+    }
+    let solvers = Solver::all();
+    let questions = Proofs::questions(args.long, wanted);
+    let tick = progress::bar("prove", "lemmas and kernels", u32::try_from(questions).unwrap_or(u32::MAX));
+    let proofs = prove(wanted, args.long, &solvers, seed(), &*tick);
+    say(&proofs.to_string())?;
+    files::write("prove", (args.json.as_deref(), None), &proofs, |_| Ok::<_, Failure>(String::new()))?;
+    if !proofs.wrong().is_empty() {
+        return Ok(ExitCode::FAILURE);
+    }
+    if solvers.is_empty() {
+        say("not judged: no solver was found; tests/fetch-solvers brings two\n")?;
+    }
+    let told = !solvers.is_empty() && proofs.not_shown().is_empty();
+    Ok(if told { ExitCode::SUCCESS } else { ExitCode::from(NO_VERDICT) })
+}
