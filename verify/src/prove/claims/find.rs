@@ -8,9 +8,9 @@
 //! - `find.possible`: if any point of the ray lies on the sphere, it is possibly hit.
 //! - `find.root`: from outside, the nearest such point lies in the interval that it gives; `find.far`: from inside, the only one ahead.
 //! - `find.certain`: what it calls certain has such a point; `find.miss`: what the line misses is dropped; `find.unknown`: where it is not known
-//!   whether the eye is inside, nothing is certain.
+//!   whether the eye is inside, nothing is certain. `find.sharp`: with nothing to bound, the interval is the root.
 
-use super::{NONE, implies, same};
+use super::{NONE, all, implies, same};
 use crate::prove::broken::Fault;
 use crate::prove::smt::Numbers;
 use crate::prove::symbolic::Lanes;
@@ -121,6 +121,8 @@ enum What {
     Far,
     /// What is certain from that side.
     Certain(Side),
+    /// With nothing to bound the interval is the root, from that side; and what is behind is dropped.
+    Sharp(Side),
     /// The line misses, seen from that side.
     Miss(Side),
     /// It is not known on which side the eye is.
@@ -139,7 +141,8 @@ impl Theorem for What {
         let zero = m.splat(0.0);
         let (never, far) = (m.lt(zero, zero), m.splat(f32::INFINITY));
         let (a, along) = (square(m, s.dir(m)), s.along(m));
-        let [above, below, root] = [s.bound.hit_above, s.bound.miss_below, s.bound.root].map(|x| m.splat(x));
+        let bounds = [s.bound.hit_above, s.bound.miss_below, s.bound.root].map(|x| m.splat(x));
+        let [above, below, root] = bounds;
         let discriminant = {
             let distance = m.sub(m.mul(a, square(m, s.center(m))), m.mul(along, along));
             m.sub(m.mul(a, m.splat(s.rr)), distance)
@@ -149,6 +152,12 @@ impl Theorem for What {
         let wide = ("that of the root is not negative", m.le(zero, root));
         let touches = ("the point lies on the sphere", s.touches(m, at));
         let ahead = ("the point lies ahead", m.lt(zero, at));
+        // The root itself, by the formula of the schools.
+        let root_is = |side: Side| {
+            let half = m.sqrt(discriminant);
+            let sum = if side == Side::Outside { m.sub(along, half) } else { m.add(along, half) };
+            ("the point is the root", same(m, m.mul(at, a), sum))
+        };
         let (side, assume) = match self {
             Self::Possible => (Side::Unknown, vec![misses, touches]),
             Self::Root => {
@@ -161,10 +170,16 @@ impl Theorem for What {
                 (Side::Inside, vec![above, misses, wide, touches, ahead, inside])
             }
             Self::Certain(side) => {
-                // The root itself, by the formula of the schools.
-                let half = m.sqrt(discriminant);
-                let sum = if *side == Side::Outside { m.sub(along, half) } else { m.add(along, half) };
-                (*side, vec![above, misses, wide, ("the point is the root", same(m, m.mul(at, a), sum))])
+                let mut assume = vec![above, wide, root_is(*side)];
+                if *side == Side::Outside {
+                    assume.push(misses);
+                }
+                (*side, assume)
+            }
+            Self::Sharp(side) => {
+                let real = ("the line does not miss", m.le(zero, discriminant));
+                let nothing = all(m, &bounds.map(|x| same(m, x, zero)));
+                (*side, vec![("there is nothing to bound", nothing), real, root_is(*side)])
             }
             Self::Miss(side) => {
                 (*side, vec![("the line misses by more than the bound", m.lt(discriminant, below))])
@@ -175,6 +190,10 @@ impl Theorem for What {
             (Self::Certain(_), Some(found)) => vec![
                 (touches.0, implies(m, found.certain, touches.1)),
                 (ahead.0, implies(m, found.certain, ahead.1)),
+            ],
+            (Self::Sharp(_), Some(found)) => vec![
+                ("the interval is a number", m.le(found.hi, found.lo)),
+                ("what is behind is dropped", m.or(m.le(zero, at), m.not(found.possible))),
             ],
             (Self::Miss(_), Some(found)) => vec![("the sphere is not possibly hit", m.not(found.possible))],
             (Self::Unknown, Some(found)) => vec![
@@ -265,6 +284,9 @@ pub fn lemmas() -> Vec<Lemma> {
             &[
                 (Wrong::Operation(28, Fault::Border), "of two equal numbers either is the greater"),
                 (Wrong::Operation(33, Fault::Border), "of two equal numbers either is the greater"),
+                (Wrong::Operation(27, Fault::FirstNumber), "the bound of a miss is for rounding"),
+                (Wrong::Operation(32, Fault::FirstNumber), "the bound of a hit is for rounding"),
+                (Wrong::Operation(44, Fault::Border), "what touches is hit"),
                 (Wrong::Operation(39, Fault::FirstNumber), "the bound of the root is for rounding"),
                 (Wrong::Operation(40, Fault::FirstNumber), "the bound of the root is for rounding"),
                 (Wrong::Operation(41, Fault::Border), "a root ahead has its upper end above 0"),
@@ -323,6 +345,14 @@ pub fn lemmas() -> Vec<Lemma> {
             INSIDE,
             Box::new(What::Far),
         ),
+        lemma(
+            "find.sharp.outside",
+            find,
+            "With nothing to bound, the interval of a root seen from outside is the root, and what is behind is dropped",
+            AHEAD,
+            Box::new(What::Sharp(Side::Outside)),
+        ),
+        lemma("find.sharp.inside", find, "So it is from inside", INSIDE, Box::new(What::Sharp(Side::Inside))),
         lemma(
             "find.certain.outside",
             find,

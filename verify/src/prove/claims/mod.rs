@@ -99,6 +99,8 @@ pub const CLAIMS: [Claim; 9] = [
             "find.miss.unknown",
             "find.root",
             "find.far",
+            "find.sharp.outside",
+            "find.sharp.inside",
             "find.certain.outside",
             "find.certain.inside",
         ],
