@@ -244,7 +244,9 @@ fn every_operand_is_waited_for() {
     type F = Lanes<[f32; LANES]>;
     type I = Lanes<[i32; LANES]>;
     type B = Lanes<[bool; LANES]>;
-    let numbers: [(&str, usize, fn([F; 3]) -> u64); 11] = [
+    /// Its name, how many operands it has, and when its result can be used.
+    type Operation<T> = (&'static str, usize, fn([T; 3]) -> u64);
+    let numbers: [Operation<F>; 11] = [
         ("add", 2, |[x, y, _]| M.add(x, y).ready()[0]),
         ("sub", 2, |[x, y, _]| M.sub(x, y).ready()[0]),
         ("mul", 2, |[x, y, _]| M.mul(x, y).ready()[0]),
@@ -257,14 +259,14 @@ fn every_operand_is_waited_for() {
         ("lt", 2, |[x, y, _]| M.lt(x, y).ready()[0]),
         ("le", 2, |[x, y, _]| M.le(x, y).ready()[0]),
     ];
-    let integers: [(&str, usize, fn([I; 3]) -> u64); 5] = [
+    let integers: [Operation<I>; 5] = [
         ("lt_i", 2, |[x, y, _]| M.lt_i(x, y).ready()[0]),
         ("add_i", 2, |[x, y, _]| M.add_i(x, y).ready()[0]),
         ("or_i", 2, |[x, y, _]| M.or_i(x, y).ready()[0]),
         ("shl_16", 1, |[x, ..]| M.shl_16(x).ready()[0]),
         ("shr_16", 1, |[x, ..]| M.shr_16(x).ready()[0]),
     ];
-    let masks: [(&str, usize, fn([B; 3]) -> u64); 3] = [
+    let masks: [Operation<B>; 3] = [
         ("and", 2, |[x, y, _]| M.and(x, y).ready()[0]),
         ("or", 2, |[x, y, _]| M.or(x, y).ready()[0]),
         ("not", 1, |[x, ..]| M.not(x).ready()[0]),

@@ -23,6 +23,9 @@ pub mod peers;
 pub mod embree;
 
 pub mod bounds;
+pub mod few;
+pub mod rounding;
+
 pub mod judge;
 pub mod verdict;
 pub mod visible;
