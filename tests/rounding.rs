@@ -106,7 +106,7 @@ fn the_root_is_where_it_is_said_on_all_inputs_of_8_bits() {
     assert_eq!(said.wrong, [0; 5], "{:?}", said.first);
     let n = said.inputs;
     assert!(
-        said.tangent > n / 1000 && said.surface > n / 1000 && said.inside > n / 10,
+        said.tangent > n / 10_000 && said.surface > n / 1000 && said.inside > n / 10,
         "nothing is at stake"
     );
     assert!(said.hits > said.hit * 3 / 4 && said.misses > (n - said.hit) * 3 / 4, "little is decided");
