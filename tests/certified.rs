@@ -102,7 +102,7 @@ fn judge(kind: Kind, seed: u64, i: u64, levels: &[Level]) -> Tally {
             let alone = Scene::new(vec![*sphere], [0; 3], DEFAULT_LIGHT).expect("valid");
             let t = Tracer::new(Arithmetic::Exact).trace(&ray, &alone).map(|hit| f64::from(hit.t));
             tally.asked += 1;
-            match (double::ask(ray.eye, ray.dir, sphere), t) {
+            match (double::ask::<f64>(ray.eye, ray.dir, sphere), t) {
                 (Answer::Undecided, _) => tally.undecided += 1,
                 (Answer::Miss, None) => {}
                 // t is rounded to f32, so half an ulp beyond the interval is no contradiction.

@@ -3,15 +3,16 @@
 //! Cycle counts of short sequences are written out instruction by instruction; mispredicts of nested loops are held against their
 //! closed form; random kernels must keep the two bounds in order.
 
-use contract::{Camera, DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
+use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use optimized::frustum::Slices;
 use optimized::grid::MAX_CELLS;
 use optimized::host::Scalar;
-use optimized::machine::{LANES, Machine, Site, Stage};
+use optimized::machine::{Chore, LANES, Machine, Site, Stage};
 use optimized::plan::{Culling, Loop, Resolution, Voxelizer};
 use optimized::walk::{Cursor, Rectangle, Visitor, step, walk};
 use optimized::{Level, Plan, Tracer};
 use rand::{Rng, RngExt};
+use std::collections::BTreeSet;
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::seed::{count, generator, seed};
@@ -236,6 +237,141 @@ fn the_step_of_the_flattened_loop() {
     by_hand("the step", work, [17, 0], 25, 26);
 }
 
+/// Every operand of an operation is waited for: one that comes late makes its result late. A quotient asks for its dividend 11
+/// cycles after its divisor, and on a machine that issues in order nothing is so late any more.
+#[test]
+fn every_operand_is_waited_for() {
+    type F = Lanes<[f32; LANES]>;
+    type I = Lanes<[i32; LANES]>;
+    type B = Lanes<[bool; LANES]>;
+    /// Its name, how many operands it has, and when its result can be used.
+    type Operation<T> = (&'static str, usize, fn([T; 3]) -> u64);
+    let numbers: [Operation<F>; 11] = [
+        ("add", 2, |[x, y, _]| M.add(x, y).ready()[0]),
+        ("sub", 2, |[x, y, _]| M.sub(x, y).ready()[0]),
+        ("mul", 2, |[x, y, _]| M.mul(x, y).ready()[0]),
+        ("div, its divisor", 1, |[x, y, _]| M.div(y, x).ready()[0]),
+        ("sqrt", 1, |[x, ..]| M.sqrt(x).ready()[0]),
+        ("neg", 1, |[x, ..]| M.neg(x).ready()[0]),
+        ("floor", 1, |[x, ..]| M.floor(x).ready()[0]),
+        ("truncate", 1, |[x, ..]| M.truncate(x).ready()[0]),
+        ("smallest", 1, |[x, ..]| M.smallest(x).ready()[0]),
+        ("lt", 2, |[x, y, _]| M.lt(x, y).ready()[0]),
+        ("le", 2, |[x, y, _]| M.le(x, y).ready()[0]),
+    ];
+    let integers: [Operation<I>; 5] = [
+        ("lt_i", 2, |[x, y, _]| M.lt_i(x, y).ready()[0]),
+        ("add_i", 2, |[x, y, _]| M.add_i(x, y).ready()[0]),
+        ("or_i", 2, |[x, y, _]| M.or_i(x, y).ready()[0]),
+        ("shl_16", 1, |[x, ..]| M.shl_16(x).ready()[0]),
+        ("shr_16", 1, |[x, ..]| M.shr_16(x).ready()[0]),
+    ];
+    let masks: [Operation<B>; 3] = [
+        ("and", 2, |[x, y, _]| M.and(x, y).ready()[0]),
+        ("or", 2, |[x, y, _]| M.or(x, y).ready()[0]),
+        ("not", 1, |[x, ..]| M.not(x).ready()[0]),
+    ];
+    // The late one is an estimate's last step; it is made in any case, and used or not.
+    let two_numbers = || (M.splat(2.0), M.sqrt(M.splat(2.0)));
+    let two_integers = || (M.splat_i(2), M.truncate(M.sqrt(M.splat(2.0))));
+    let two_masks = || {
+        let (early, late) = (M.le(M.splat(1.0), M.splat(2.0)), M.sqrt(M.splat(2.0)));
+        (early, M.le(late, late))
+    };
+    let mut judged = 0;
+    let mut judge = |name: &str, i: usize, [late, early]: [u64; 2]| {
+        eprintln!("{name}: usable at {late} with a late operand {i}, else at {early}");
+        assert!(late > early, "{name}: operand {i} is not waited for");
+        judged += 1;
+    };
+    fn pair<T: Copy>(two: impl Fn() -> (T, T), op: fn([T; 3]) -> u64, i: usize) -> [u64; 2] {
+        [true, false].map(|is_late| {
+            let work = || {
+                let (early, late) = two();
+                let mut operands = [early; 3];
+                if is_late {
+                    operands[i] = late;
+                }
+                op(operands)
+            };
+            cycles(work).0
+        })
+    }
+    for (name, arity, op) in numbers {
+        (0..arity).for_each(|i| judge(name, i, pair(two_numbers, op, i)));
+    }
+    for (name, arity, op) in integers {
+        (0..arity).for_each(|i| judge(name, i, pair(two_integers, op, i)));
+    }
+    for (name, arity, op) in masks {
+        (0..arity).for_each(|i| judge(name, i, pair(two_masks, op, i)));
+    }
+    // Selections have operands of two kinds.
+    let choose = |[b, ..]: [B; 3]| M.select(b, M.splat(1.0), M.splat(2.0)).ready()[0];
+    let choose_i = |[b, ..]: [B; 3]| M.select_i(b, M.splat_i(1), M.splat_i(2)).ready()[0];
+    judge("select, its mask", 0, pair(two_masks, choose, 0));
+    judge("select_i, its mask", 0, pair(two_masks, choose_i, 0));
+    fn yes() -> B {
+        M.le(M.splat(1.0), M.splat(2.0))
+    }
+    for i in 0..2 {
+        let of = |[x, y, _]: [F; 3]| M.select(yes(), x, y).ready()[0];
+        let of_i = |[x, y, _]: [I; 3]| M.select_i(yes(), x, y).ready()[0];
+        judge("select", i, pair(two_numbers, of, i));
+        judge("select_i", i, pair(two_integers, of_i, i));
+    }
+    assert_eq!(judged, 16 + 8 + 5 + 6, "operands of numbers, integers, masks and selections");
+}
+
+/// Chores by hand: instructions on the even and the odd pipe, and when all of it can be used. Of sixteen or of several, each
+/// instruction is issued for all of them before the next one:
+///
+/// ```text
+/// a cell       0, 1, 2 shl at 4, 5, 6; 5 a at 7; 7 a at 9; 9, 10 lqx at 15, 16
+/// a sphere     0 rotqby at 4; 4 and at 6; 6 shl at 10; 10 lqx at 16; 16..19 shufb at 20..23
+/// its form     0, 1 fm at 6, 7; 7 fma at 13; 13 fma at 19; 19 fs at 25
+/// a rectangle  0 lqx at 6; 6..8 rotqby at 10..12
+/// an entry     0 lqx at 6; 6 rotqby at 10; 10 a at 12; 12 shufb at 16; 16 stqx at 22
+/// an owner     0 rotqby at 4; 4 shl at 8; 8, 9 lqx at 14, 15; 15 shufb at 19; 19 csflt at 26, beside it
+///              19..22 shufb at 23..26; 26..28 shufb at 30..32
+/// pixels       0..3 shufb at 4..7; 4..7 shufb at 8..11
+/// emptied      0..4 stqx at 6..10
+/// distances    0..7 lqx at 6..13; 7..10 fs at 13..16; 11..14 fs at 17..20; 14..17 stqx at 20..23; 18..21 stqx at 24..27
+/// a push       0 shl at 4; 4 a at 6; 6..8 a at 8..10, beside the last 8 shufb at 12; 12..19 rotqby; 20..35 lqx, the last at 41;
+///              41..56 shufb, the last at 60; 60..75 stqx, the last at 81
+/// boxes        0..15 lqx; 15..30 fs; 30..45 stqx; 46..61 shufb; 62..77 shufb, the last at 81; 78..101 fs and fa, the last at 107;
+///              102..125 fcgt; 126..149 selb, the last at 151
+/// ```
+#[test]
+fn chores_by_hand() {
+    for (chore, [even, odd], ready) in [
+        (Chore::Cell, [5, 2], 16),
+        (Chore::Sphere(0), [2, 6], 23),
+        (Chore::Invariants, [5, 0], 25),
+        (Chore::Rectangle, [0, 4], 12),
+        (Chore::Entry, [1, 4], 22),
+        (Chore::Owner, [2, 11], 32),
+        (Chore::Pixels, [0, 8], 11),
+        (Chore::Clear(5), [0, 5], 10),
+        (Chore::Distances(16), [8, 16], 27),
+        (Chore::Distances(13), [8, 16], 27),
+        (Chore::Push(8), [5, 57], 81),
+        // Straight-line code pushes all eight.
+        (Chore::Push(3), [5, 57], 81),
+        (Chore::Boxes, [88, 64], 151),
+        (Chore::Packet, [0, 0], 0),
+    ] {
+        let (scalar, booked) = cycles(|| M.beside(chore, || M.splat(1.0)));
+        eprintln!("{chore:?}: {booked:?}, usable from {}", scalar.ready()[0]);
+        assert_eq!(
+            [booked.even, booked.odd],
+            [even, odd],
+            "{chore:?}: instructions on the even and the odd pipe"
+        );
+        assert_eq!(scalar.ready()[0], ready, "{chore:?}: usable");
+    }
+}
+
 /// One even and one odd instruction go in one cycle, two of a pipe do not.
 #[test]
 fn two_pipes_issue_together() {
@@ -456,6 +592,21 @@ fn its_books_agree_with_the_tracers_counts() {
             counts.candidates,
             "rounds of the loop over ids"
         );
+        // A loop over ids ends with its question, and one over none is passed by with its own.
+        assert_eq!(looped.executed, counts.candidates, "{walk:?}: questions for another id");
+        let cells =
+            [Site::NextK, Site::NextCell].map(|site| trace.site(site).executed).into_iter().sum::<u64>();
+        assert_eq!(listing.executed, cells, "{walk:?}: cells asked whether they list any");
+        let ends = trace.site(Site::Unfinished).executed;
+        let slices = trace.site(Site::NextSlice).taken;
+        assert_eq!(ends, slices, "{walk:?}: early ends asked for after slices but the last");
+        let owners = trace.site(Site::NextOwner);
+        let [all, blocks] = owners_of_blocks(&model.image);
+        assert_eq!(
+            [owners.executed, owners.executed - owners.taken],
+            [all, blocks],
+            "{walk:?}: owners, blocks that hit"
+        );
         assert!(trace.repeats > 0 && trace.repeats < trace.fetched);
         let voxelized = model.voxelize.stage(Stage::Voxelize);
         assert_eq!(voxelized, model.voxelize.total(), "only the grid is built before rays are traced");
@@ -480,6 +631,33 @@ fn its_books_agree_with_the_tracers_counts() {
                 );
             }
         }
+    }
+}
+
+/// Spheres that blocks of 4x4 pixels hit, each once a block, and blocks that hit any.
+fn owners_of_blocks(image: &Image) -> [u64; 2] {
+    let [width, height] = [image.size.width(), image.size.height()].map(|n| n as usize);
+    let mut sum = [0, 0];
+    for (y, x) in (0..height).step_by(4).flat_map(|y| (0..width).step_by(4).map(move |x| (y, x))) {
+        let rows = (y..height.min(y + 4)).flat_map(|y| &image.ids[y * width..][x..width.min(x + 4)]);
+        let owners = rows.filter(|id| **id != MISS).collect::<BTreeSet<_>>().len() as u64;
+        sum = [sum[0] + owners, sum[1] + u64::from(owners > 0)];
+    }
+    sum
+}
+
+/// Spheres are put into cells by one loop with one branch, into queues and into lists.
+#[test]
+fn the_loop_over_spheres_tells_its_branch() {
+    let (scene, camera) = view("1hvr", [16, 12]);
+    for plan in [Plan::paper(), Plan::safe()] {
+        let model = measured(plan, &scene, &camera, 1);
+        let (next, n) = (model.voxelize.site(Site::NextSphere), scene.spheres().len() as u64);
+        eprintln!("{plan}: {next:?} of {n} spheres");
+        assert_eq!([next.executed, next.taken], [n, n - 1], "{plan}: one branch a sphere");
+        // Hinted it is mispredicted once, at its end; unhinted each time but there.
+        let [unhinted, hinted, _] = next.mispredicts;
+        assert_eq!([unhinted, hinted], [n - 1, 1], "{plan}");
     }
 }
 

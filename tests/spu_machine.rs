@@ -157,7 +157,7 @@ fn whole(x: Naive) -> [i32; 2] {
     if x.is_zero() {
         return [0, 0];
     }
-    let (negative, exponent) = (x.0 >> 31 != 0, (x.0 >> 23 & 0xff) as i32 - 127);
+    let (negative, exponent) = (x.0 >> 31 != 0, (x.0 >> 23 & 0xff).cast_signed() - 127);
     if exponent >= 31 {
         return [if negative { i32::MIN } else { i32::MAX }; 2];
     }
@@ -210,9 +210,9 @@ fn one_operand_is_exhausted() {
             let x: Lanes =
                 std::array::from_fn(|lane| (upper << 16 | lowers[lane.min(lowers.len() - 1)]) as u32);
             let by_f64 = single(Spu, x);
-            for lane in 0..LANES {
-                let (numbers, integers) = single_by_integers(x[lane]);
-                let say = |what: &str| format!("{what} of {:#010x}", x[lane]);
+            for (lane, x) in x.into_iter().enumerate() {
+                let (numbers, integers) = single_by_integers(x);
+                let say = |what: &str| format!("{what} of {x:#010x}");
                 for (i, what) in ["root", "reciprocal"].into_iter().enumerate() {
                     let (out, wanted) = (by_f64.0[i][lane], numbers[i]);
                     assert!(out == wanted, "{}: {out:#010x}, not {wanted:#010x}", say(what));

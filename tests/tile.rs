@@ -88,10 +88,11 @@ fn held(ray: &Ray, sphere: &Sphere, t: f32, slack: f32) -> Result<bool, String> 
     if f64::from(outline.near[0]) > reached {
         return Err(format!("nearer than near: {:e}, {reached:e}", outline.near[0]));
     }
-    let error = short_error(m, magnitude, [sphere.radius; LANES]);
+    let error = short_error::<f64, _>(m, magnitude, [sphere.radius; LANES]);
     let error = error.map(|error| if slack == 1.0 { error } else { 0.0 * error });
     let lanes = |v: [f32; 3]| v.map(|x| [x; LANES]);
-    let ends = short_ends(ray.eye, &lanes(ray.dir), &lanes(sphere.center), &[sphere.radius; LANES], &error);
+    let ends =
+        short_ends::<f64>(ray.eye, &lanes(ray.dir), &lanes(sphere.center), &[sphere.radius; LANES], &error);
     let [lo, hi] = [ends[0][0], ends[1][0]];
     if lo.to_bits() == hi.to_bits() && lo.to_bits() != t.to_bits() {
         return Err(format!("t is {t:e}, the short way gives {lo:e}"));

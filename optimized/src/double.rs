@@ -1,49 +1,75 @@
 //! One ray against one sphere in f64, with a bound on the error of each step: the stage between f32 and integers.
 //!
 //! In: a ray and a sphere, exact f32 numbers. Out: miss, hit with an interval of t, or undecided. Straight-line code, so that a
-//! loop over sixteen lanes becomes vectors.
+//! loop over sixteen lanes becomes vectors. It is written over [`Float`], of which f64 is what ships; `tests/rounding.rs` runs it on
+//! floats of 8 and 16 bits over all inputs of its domains.
 //!
 //! # Derivation
 //!
-//! v = 2⁻⁵³; f = eye − c rounded once; F = |f|, n = |d|, a = n², b = f·d, q = f·f − r²; products of two f32 are exact. No
-//! step leaves the range of f64 (products reach from 2⁻⁵⁹⁶ to 2⁵¹⁸). To first order in v, with 1 % put on in the end:
+//! Every operation is fl(x ∘ y) = (x ∘ y)(1 + δ), |δ| <= v, so that k of them are off by at most γ_k = (1 + v)ᵏ − 1 of the true, or
+//! by (1 − v)⁻ᵏ − 1 of the computed result. Products of two inputs are exact, and no step leaves the range of f64 (products reach from 2⁻⁵⁹⁶ to
+//! 2⁵¹⁸). What follows holds for every v <= 2⁻⁸, with M = [`Float::MORE`] >= 1 + 40 v. Let f = eye − c and d be exact, F = |f|, n = |d|,
+//! a = n², b = f·d, q = F² − r², w = f × d, D = a r² − |w|² (which is b² − a q, without its cancellation); what is computed has a hat,
+//! and by name A = fl(a r²), W = fl(|ŵ|²), G = fl(â F̂²) ("far").
 //!
-//! - w = f × d. Each component has at most three roundings on |f_j d_k| + |f_k d_j|; the vector of these sums is no longer than
-//!   √(4/3) F n, since its square is |f × d|² + 4 Σ f_j d_j f_k d_k <= (sin² + 4/3 cos²) F²n². So |δw| <= 3.47 v F n =: p.
-//! - D = a r² − |w|² (b² − a q, without its cancellation): |w|² by 3v|w|² + 2p|w| + p²; a r² by 4v; the difference by 1v:
-//!   E = v (7 F n |w| + 5 a r² + 5 |w|²) + 13 (v F n)².
-//! - q: 6v F² + v r². b: 4v F n.
-//! - S = √D: E/S, since |√x − √y| <= |x − y| / √x; and v S.
-//! - With B = |b|: an eye outside that sees the sphere ahead has t = q / (B + S); one inside has (B + S) / a if b < 0, else
-//!   −q / (B + S). Neither sum cancels. If b's sign is in doubt, B is off by twice b's error. Relative errors add up.
+//! 1. A component of ŵ has three roundings (f, product, difference) on each of two terms: |ŵ_x − w_x| <= γ_3 (|f_y d_z| + |f_z d_y|).
+//! 2. These sums are those of the components' magnitudes x_i = |f_i d_i|, and the squared length of the vector of them is
+//!    F²n² − (Σ x_i)² + 4 Σ x_i x_j (i < j) <= F²n² + (Σ x_i)² / 3 <= 4/3 F²n². So |ŵ − w| <= √(4/3) γ_3 F n <= 3.48 v F n =: p.
+//! 3. ||ŵ|² − |w|²| <= 2p |ŵ| + p², in terms of what was computed.
+//! 4. A and W have three roundings each, the difference one more: |D̂ − D| <= ((1 − v)⁻³ − 1 + v)(A + W) + 2p |ŵ| + p².
+//! 5. G has eight roundings (two in a, five in F²), W three: F n <= √G (1 − v)⁻⁴, |ŵ| <= √W (1 − v)^(−3/2).
+//! 6. `slack` is computed with 5.5 roundings on its first term (the root halves one), five on the second, two on the third. So it is no less
+//!    than 4. if 6.96 (1 − v)⁻¹¹ <= 7 M, ((1 − v)⁻³ − 1 + v)(1 − v)⁻⁵ <= 5 M v, and 12.12 (1 − v)⁻¹⁰ <= 14.
+//! 7. F² has five roundings, q one more: |q̂ − q| <= ((1 − v)⁻⁵ − 1) F̂² + v (F̂² + r²); `q_slack` is no less if
+//!    ((1 − v)⁻⁵ − 1 + v) <= 6 M v (1 − v)³ and 1 <= M (1 − v)².
+//! 8. b has four roundings on Σ |f_i d_i| <= F n: |b̂ − b| <= γ_4 F n; `b_slack` is no less if γ_4 (1 − v)⁻⁴ <= 4 M v (1 − v)².
+//! 9. *Miss* if D < 0, or if the eye is outside (q > 0) and b > 0. *Hit* if D >= 0 and the eye is inside (q < 0), or outside with b < 0.
+//!    Signs are certain beyond their slacks. An eye on the surface is neither inside nor outside.
+//!
+//! With S = √D, an eye outside has t = q / (S − b); one inside has (S − b) / a if b̂ < 0, else −q / (S + b). None cancels: with
+//! Σ = S ∓ b and σ = |b̂| + ŝ, let β = `b_slack`, E = `slack`, x = E / D̂, y = ŝ / σ <= 1. A hit is only said if D̂ > 2 E, so x < 1/2.
+//!
+//! 10. √D̂ − √D is at most √D̂ z either way, where z = 1 − √(1 − x), that is x = 2z − z², and z < 0.3.
+//! 11. |Σ − σ| <= β + z √D̂ + |ŝ − √D̂|, also where b's sign is in doubt; √D̂ <= ŝ (1 − v)⁻¹. So |Σ − σ| <= c σ with
+//!     c = β/σ + (z + v) y / (1 − v).
+//! 12. `error` is computed with eleven roundings at most: e >= M (1 − v)¹¹ e₀ >= (1 + 27 v) e₀, e₀ = ε + 2 β/σ + (x + v) y + 4v, where ε =
+//!     `q_slack` / |q̂| for a quotient, and 3v for a sum over a. Only e < 1/2 is used.
+//! 13. A quotient t̂ has two roundings (sum, division) and an end of the interval two: t lies between the ends if
+//!     (1 + ε)(1 + v) <= (1 − c)(1 + e)(1 − v)³ and (1 − e)(1 + c)(1 + v)³ <= (1 − ε)(1 − v).
+//! 14. A sum over a has four, two of them in a: if (1 + c)(1 + v)² <= (1 + e)(1 − v)⁴ and (1 − e)(1 + v)⁴ <= (1 − c)(1 − v)².
+//!
+//! Steps 6 to 8 and the last of 12 have one variable. 13 and 14 hold for all 0 < v <= 2⁻⁸, 0 <= z <= 0.3, 0 <= y <= 1, and ε, β/σ >= 0 with
+//! (1 + 27 v) e₀ < 1/2: by first order, 2 β/σ + x y against β/σ + z y is room for what is of second. (Up to D̂ > E it would not be: c may then be
+//! nearly y.)
 //!
 //! # The short way
 //!
 //! Nearly all hits are seen from outside, and not at the sphere's very rim: [`short_ends`] does with b² − a q and one bound for all rays,
-//! which must have D > κ a r², κ = 2⁻¹². With g = F²/q,
+//! for spheres with F² >= 2r² and rays with D > κ a r². With g = F²/q, and v <= 2⁻¹²:
 //!
-//! - q: 5v F² from f and the sum, v q from the difference, at most 6v g of itself. b: 4v F n. a: 3v of itself.
-//! - D: 9v a F² from b², 10v a F² from a q, v a F² from the difference: 20v a F².
-//! - S: 20v a F² / √(κ a r²) and v S. Since D > 0, |b| >= √(a q), and so B + S is off by
-//!   v (20 F² / (√κ r √q) + 4 √g + 2) of itself, where F²/√q <= g F.
-//! - t: in all v g (13 + 1280 F/r), for which we take v g (16 + 1280 |f|₁/r), |f|₁ the sum of f's components.
+//! 1. q: five roundings of F², and one: |q̂ − q| <= 6.01 v g q, since g >= 1. b: |b̂ − b| <= 4.01 v F n.
+//! 2. D: 8.1 v a F² from b, v a F² and a little from b²; 9.1 v a F² from a, q and their product; 1.1 v a F² from the difference:
+//!    |D̂ − D| <= 20 v a F².
+//! 3. The error said is e >= v g (16 + (20/√κ) F/r). It is used below √(2v) only, so that 20 v F² < κ r² / 10.
+//! 4. D̂ > κ r² a (1 − v)³ is what is asked; so |D̂ − D| <= D̂ / 9.9, and D > 0. As b² > a q, |b| > F n / √g, and b's sign is certain.
+//! 5. √D̂ − √D is at most 20 v a F² / (1.94 √κ √a r), since D̂ and D are both near κ a r² or above.
+//! 6. Σ = S − b >= √a √q: with √D̂'s rounding, Σ is off by v (4.01 √g + 10.4 √g F / (√κ r) + 1.1) of itself.
+//! 7. t: sum, division, and one and a little at the ends: v g (14.3 + (10.4/√κ) F/r) <= 0.9 e in first order, and in second less than 0.9 e²,
+//!    which is below 0.1 e as e < 0.11.
 //!
-//! That D > 0 holds if 20 F² v < κ r², which it does if this error is below 2⁻²⁶; else nothing is said.
+//! κ is 2⁻¹² for f64, so 20/√κ is 1280; for F we take |f|₁, the sum of f's components.
 
+use crate::float::Float;
 use crate::machine::{LANES, Machine};
 use contract::Sphere;
 
-const V: f64 = 1.0 / (1u64 << 53) as f64;
-/// 1 % for terms of higher order and the bounds' own rounding.
-const MORE: f64 = 1.01;
-
 /// What f64 can say.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Answer {
+pub enum Answer<F = f64> {
     /// Certainly a miss.
     Miss,
     /// Certainly a hit, with t > 0 between the two.
-    Hit([f64; 2]),
+    Hit([F; 2]),
     /// Not known.
     Undecided,
 }
@@ -51,12 +77,12 @@ pub enum Answer {
 /// Asks f64.
 #[must_use]
 #[inline(always)]
-pub fn ask(eye: [f32; 3], dir: [f32; 3], sphere: &Sphere) -> Answer {
+pub fn ask<F: Float>(eye: [f32; 3], dir: [f32; 3], sphere: &Sphere) -> Answer<F> {
     let r = root(eye, dir, sphere.center, sphere.radius);
     if r.miss {
         Answer::Miss
     } else if r.hit {
-        Answer::Hit([r.t * (1.0 - r.error), r.t * (1.0 + r.error)])
+        Answer::Hit(r.interval())
     } else {
         Answer::Undecided
     }
@@ -64,107 +90,123 @@ pub fn ask(eye: [f32; 3], dir: [f32; 3], sphere: &Sphere) -> Answer {
 
 /// A root as computed, what is certain about it, and its relative error.
 #[derive(Clone, Copy, Debug)]
-pub struct Root {
+pub struct Root<F = f64> {
     /// Certainly none.
     pub miss: bool,
     /// Certainly one.
     pub hit: bool,
     /// Where, if there is one.
-    pub t: f64,
+    pub t: F,
     /// Relative error, below 1/2 if `hit`.
-    pub error: f64,
+    pub error: F,
 }
 
-impl Root {
-    /// Lower and upper end of the true root, both rounded to f32: where these have the same bits, it is rounded so. Without a
-    /// certain hit they never have.
+impl<F: Float> Root<F> {
+    /// Lower and upper end of the true root, if there is one for certain.
     #[must_use]
     #[inline(always)]
-    #[allow(clippy::cast_possible_truncation, reason = "this is the rounding of rule 3")]
+    pub fn interval(&self) -> [F; 2] {
+        [self.t * (F::of(1.0) - self.error), self.t * (F::of(1.0) + self.error)]
+    }
+
+    /// The same, both rounded to f32: where these have the same bits, it is rounded so. Without a certain hit they never have.
+    #[must_use]
+    #[inline(always)]
     pub fn ends(&self) -> [f32; 2] {
-        let [lo, hi] = [(self.t * (1.0 - self.error)) as f32, (self.t * (1.0 + self.error)) as f32];
-        if self.hit { [lo, hi] } else { [0.0, -0.0] }
+        let [lo, hi] = self.interval();
+        if self.hit { [lo.narrow(), hi.narrow()] } else { [0.0, -0.0] }
     }
 }
 
 /// The root that rule 2 asks for, in f64.
 #[must_use]
 #[inline(always)]
-pub fn root(eye: [f32; 3], dir: [f32; 3], center: [f32; 3], radius: f32) -> Root {
-    let d = [f64::from(dir[0]), f64::from(dir[1]), f64::from(dir[2])];
+pub fn root<F: Float>(eye: [f32; 3], dir: [f32; 3], center: [f32; 3], radius: f32) -> Root<F> {
+    let zero = F::of(0.0);
+    let d = [F::of(dir[0]), F::of(dir[1]), F::of(dir[2])];
     let f = [
-        f64::from(eye[0]) - f64::from(center[0]),
-        f64::from(eye[1]) - f64::from(center[1]),
-        f64::from(eye[2]) - f64::from(center[2]),
+        F::of(eye[0]) - F::of(center[0]),
+        F::of(eye[1]) - F::of(center[1]),
+        F::of(eye[2]) - F::of(center[2]),
     ];
-    let rr = f64::from(radius) * f64::from(radius);
+    let rr = F::of(radius) * F::of(radius);
     let (a, b, ff) = (dot(d, d), dot(f, d), dot(f, f));
     let w = [f[1] * d[2] - f[2] * d[1], f[2] * d[0] - f[0] * d[2], f[0] * d[1] - f[1] * d[0]];
     let (ww, far) = (dot(w, w), a * ff);
     let discriminant = a * rr - ww;
-    let slack = V * MORE * (7.0 * (far * ww).sqrt() + 5.0 * (a * rr + ww)) + 14.0 * V * V * far;
-    let (q, b_slack) = (ff - rr, 4.0 * MORE * V * far.sqrt());
-    let q_slack = MORE * V * (6.0 * ff + rr);
+    let slack = F::at_least(F::UNIT * F::MORE)
+        * (F::of(7.0) * (far * ww).sqrt() + F::of(5.0) * (a * rr + ww))
+        + F::at_least(14.0 * F::UNIT * F::UNIT) * far;
+    let (q, b_slack) = (ff - rr, F::at_least(4.0 * F::MORE * F::UNIT) * far.sqrt());
+    let q_slack = F::at_least(F::MORE * F::UNIT) * (F::of(6.0) * ff + rr);
     let (outside, inside) = (q > q_slack, q < -q_slack);
     let miss = discriminant < -slack || (outside && b > b_slack);
-    let s = discriminant.max(0.0).sqrt();
+    let s = if discriminant > zero { discriminant.sqrt() } else { zero };
     let sum = b.abs() + s;
-    let hit = discriminant > slack && (inside || (outside && b < -b_slack));
-    let by_sum = inside && b < 0.0;
+    let hit = discriminant > slack + slack && (inside || (outside && b < -b_slack));
+    let by_sum = inside && b < zero;
     let t = if by_sum { sum / a } else { q.abs() / sum };
-    let own = if by_sum { 3.0 * V } else { q_slack / q.abs() };
-    let error = MORE * (own + (2.0 * b_slack + slack / s + V * s) / sum + 4.0 * V);
-    Root { miss, hit: hit && error < 0.5, t, error }
+    let own = if by_sum { F::at_least(3.0 * F::UNIT) } else { q_slack / q.abs() };
+    let (twice_b, s_slack) = (F::of(2.0) * b_slack, slack / s + F::at_least(F::UNIT) * s);
+    let error = F::at_least(F::MORE) * (own + (twice_b + s_slack) / sum + F::at_least(4.0 * F::UNIT));
+    Root { miss, hit: hit && error < F::of(0.5), t, error }
 }
 
 /// Kernel: the relative error of t by the short way for sixteen spheres, whose centres are given relative to the eye in magnitudes;
 /// +∞ where it cannot be gone. In f32 of f32, which 1 % more covers, since ff >= 2 r² keeps q from cancelling.
 #[inline(always)]
-pub fn short_error<M: Machine>(m: M, [x, y, z]: [M::F; 3], radius: M::F) -> M::F {
-    const UNIT: f32 = 1.02 / (1u64 << 53) as f32;
+pub fn short_error<F: Float, M: Machine>(m: M, [x, y, z]: [M::F; 3], radius: M::F) -> M::F {
+    let [near, far, limit] = const { short_terms::<F>() };
     let (ff, rr) = (m.dot([x, y, z], [x, y, z]), m.mul(radius, radius));
     let sum = m.add(m.add(x, y), z);
-    let far = m.add(m.mul(m.splat(16.0 * UNIT), radius), m.mul(m.splat(1280.0 * UNIT), sum));
+    let far = m.add(m.mul(m.splat(near), radius), m.mul(m.splat(far), sum));
     let error = m.mul(m.div(ff, m.sub(ff, rr)), m.div(far, radius));
-    let apart = m.and(m.le(m.add(rr, rr), ff), m.lt(error, m.splat(1.0 / (1u32 << 26) as f32)));
+    let apart = m.and(m.le(m.add(rr, rr), ff), m.lt(error, m.splat(limit)));
     m.select(apart, error, m.splat(f32::INFINITY))
+}
+
+/// 16 v, (20/√κ) v, each with 2 % more, and the limit.
+#[allow(clippy::cast_possible_truncation, reason = "2 % cover it")]
+const fn short_terms<F: Float>() -> [f32; 3] {
+    let unit = (1.02 * F::UNIT) as f32;
+    [16.0 * unit, (20.0 / F::ROOT_KAPPA) as f32 * unit, F::LIMIT as f32]
 }
 
 /// Lower and upper end of each ray's t on its own sphere, by the short way, rounded to f32: where these are equal, the ray
 /// certainly hits and its t is rounded so. No branches, so that this becomes vectors.
 #[inline(always)]
 #[must_use]
-#[allow(clippy::cast_possible_truncation, reason = "this is the rounding of rule 3")]
-pub fn short_ends(
+pub fn short_ends<F: Float>(
     eye: [f32; 3],
     dir: &[[f32; LANES]; 3],
     center: &[[f32; LANES]; 3],
     radius: &[f32; LANES],
     error: &[f32; LANES],
 ) -> [[f32; LANES]; 2] {
-    const KAPPA: f64 = 1.0 / 4096.0;
-    let eye = [f64::from(eye[0]), f64::from(eye[1]), f64::from(eye[2])];
+    let zero = F::of(0.0);
+    let kappa = F::at_least(F::ROOT_KAPPA * F::ROOT_KAPPA);
+    let eye = [F::of(eye[0]), F::of(eye[1]), F::of(eye[2])];
     let (mut lo, mut hi) = ([0.0; LANES], [0.0; LANES]);
     for lane in 0..LANES {
-        let d = [f64::from(dir[0][lane]), f64::from(dir[1][lane]), f64::from(dir[2][lane])];
+        let d = [F::of(dir[0][lane]), F::of(dir[1][lane]), F::of(dir[2][lane])];
         let f = [
-            eye[0] - f64::from(center[0][lane]),
-            eye[1] - f64::from(center[1][lane]),
-            eye[2] - f64::from(center[2][lane]),
+            eye[0] - F::of(center[0][lane]),
+            eye[1] - F::of(center[1][lane]),
+            eye[2] - F::of(center[2][lane]),
         ];
-        let (r, e) = (f64::from(radius[lane]), f64::from(error[lane]));
+        let (r, e) = (F::of(radius[lane]), F::at_least(f64::from(error[lane])));
         let (rr, a, b) = (r * r, dot(d, d), dot(f, d));
         let q = dot(f, f) - rr;
         let discriminant = b * b - a * q;
         let t = q / (discriminant.sqrt() - b);
-        let hit = (discriminant > KAPPA * rr * a) & (b < 0.0) & (q > 0.0);
-        lo[lane] = if hit { (t - t * e) as f32 } else { 0.0 };
-        hi[lane] = if hit { (t + t * e) as f32 } else { 1.0 };
+        let hit = (discriminant > kappa * rr * a) & (b < zero) & (q > zero);
+        lo[lane] = if hit { (t - t * e).narrow() } else { 0.0 };
+        hi[lane] = if hit { (t + t * e).narrow() } else { 1.0 };
     }
     [lo, hi]
 }
 
 #[inline(always)]
-fn dot(u: [f64; 3], v: [f64; 3]) -> f64 {
+fn dot<F: Float>(u: [F; 3], v: [F; 3]) -> F {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }

@@ -51,6 +51,8 @@ pub mod cull;
 
 pub mod walk;
 
+pub mod float;
+
 pub mod double;
 pub mod integer;
 

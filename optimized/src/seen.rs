@@ -199,7 +199,7 @@ impl Seen {
         let sphere = &scene[id.unsigned_abs() as usize];
         let [x, y, z] = self.spheres[id.unsigned_abs() as usize].f;
         let magnitude = [m.splat(x.abs()), m.splat(y.abs()), m.splat(z.abs())];
-        let error = m.to_array(double::short_error(m, magnitude, m.splat(sphere.radius)))[0];
+        let error = m.to_array(double::short_error::<f64, _>(m, magnitude, m.splat(sphere.radius)))[0];
         Owner { id, sphere, error }
     }
 

@@ -149,8 +149,13 @@ impl Question<'_> {
             #[inline(always)]
             |x| m.to_array(x),
         );
-        let [lo, hi] =
-            double::short_ends(self.eye, &self.dir, &center, &m.to_array(radius), &m.to_array(owners.error));
+        let [lo, hi] = double::short_ends::<f64>(
+            self.eye,
+            &self.dir,
+            &center,
+            &m.to_array(radius),
+            &m.to_array(owners.error),
+        );
         let [lo, hi] = [m.lanes(lo), m.lanes(hi)];
         let settled = m.and(m.le(lo, hi), m.le(hi, lo));
         let unsettled = hits & !m.to_bits(settled);
@@ -189,7 +194,8 @@ impl Question<'_> {
     #[cold]
     fn root_of(&self, lane: usize, id: u32, counts: &mut Counts) -> f32 {
         let sphere = &self.spheres[id as usize];
-        let [t, above] = double::root(self.eye, self.direction(lane), sphere.center, sphere.radius).ends();
+        let [t, above] =
+            double::root::<f64>(self.eye, self.direction(lane), sphere.center, sphere.radius).ends();
         if t.to_bits() == above.to_bits() { t } else { self.round_exactly(lane, id, counts) }
     }
 
@@ -202,7 +208,7 @@ impl Question<'_> {
     #[cold]
     fn by_f64(&self, lane: usize, candidates: &[u32], counts: &mut Counts) -> (f32, i32) {
         let (eye, dir) = (self.eye, self.direction(lane));
-        let ask = |&id: &u32| match double::ask(eye, dir, &self.spheres[id as usize]) {
+        let ask = |&id: &u32| match double::ask::<f64>(eye, dir, &self.spheres[id as usize]) {
             Answer::Miss => None,
             Answer::Hit(t) => Some((id, t)),
             Answer::Undecided => Some((id, [0.0, f64::INFINITY])),

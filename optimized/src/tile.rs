@@ -793,7 +793,7 @@ impl<M: Machine> Work<M> {
                 outline.lo[1],
                 outline.hi[0],
                 outline.hi[1],
-                short_error(m, magnitude, radius),
+                short_error::<f64, _>(m, magnitude, radius),
             ];
             let mut rows = [[0.0; LANES]; 13];
             for (row, field) in rows.iter_mut().zip(fields) {

@@ -9,6 +9,7 @@
 //! fast, [`spu`] how fast on the paper's processor; [`claims`], [`picture`] and [`report`] show it.
 
 pub mod directed;
+pub mod few;
 pub mod matrix;
 pub mod scenes;
 pub mod seed;
@@ -24,12 +25,14 @@ pub mod embree;
 
 pub mod bounds;
 pub mod cells;
-pub mod judge;
 pub mod margins;
-pub mod verdict;
+pub mod rounding;
 pub mod visible;
 
 pub mod prove;
+
+pub mod judge;
+pub mod verdict;
 
 pub mod run;
 

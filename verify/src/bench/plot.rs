@@ -37,12 +37,12 @@ pub(crate) struct Axes<'a> {
 /// The picture, and the part of it that the axes enclose.
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 400.0;
-const LEFT: f64 = 64.0;
-const RIGHT: f64 = 570.0;
+const LEFT: f64 = 84.0;
+const RIGHT: f64 = 540.0;
 const TOP: f64 = 30.0;
 const BOTTOM: f64 = 350.0;
 /// Between the baselines of two labels.
-const APART: f64 = 15.0;
+const APART: f64 = 19.0;
 
 /// The chart; `title` is what it is called by those who do not see it.
 #[must_use]
@@ -67,7 +67,7 @@ pub(crate) fn plot(title: &str, axes: Axes<'_>, series: &[Series]) -> Option<Str
         let at = x.at(value);
         line(&mut svg, "grid", [at, TOP], [at, BOTTOM]);
         // Where points stand close to each other not all can be named.
-        if at - last > 56.0 {
+        if at - last > 64.0 {
             words(&mut svg, "middle", [at, BOTTOM + 18.0], &(axes.x_word)(value));
             last = at;
         }
