@@ -115,12 +115,12 @@ impl Bounds {
 }
 
 impl Axis {
-    /// Divides lo..hi into n cells, 1 to [`MAX_CELLS`]; into one if lo = hi, since no f32 would lie in the others and yet
-    /// their planes would be those of the one.
+    /// Divides lo..hi into n cells, 1 to [`MAX_CELLS`]; into one if lo = hi or hi − lo is beyond f32, since no f32 would lie in the others
+    /// and yet their planes would be those of the one.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "n is small")]
     pub fn new<M: Machine>(m: M, lo: f32, hi: f32, n: i32) -> Self {
-        let n = if lo < hi { n } else { 1 };
+        let n = if lo < hi && (hi - lo).is_finite() { n } else { 1 };
         let mut axis = Self { n, origin: lo, inverse: n as f32 / (hi - lo), planes: vec![lo] };
         while axis.planes.len() < n.unsigned_abs() as usize {
             axis.find_planes(m, lo, hi);
