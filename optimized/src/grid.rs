@@ -3,7 +3,7 @@
 //! A cell index is always found by one map, [`Axis::cell`]: floor((x − origin) · inverse cell size), clamped. Each
 //! rounding in it is monotone, so the map is monotone over all f32. Hence an axis has exact *planes*:
 //! `planes[i]` is the least f32 in cell i or above, found by binary search over bit patterns. A real number x
-//! is said to lie in cell i if `planes[i] <= x < planes[i + 1]`; for f32 that agrees with the map, and it makes
+//! is said to lie in cell i if `planes[i] <= x < planes[i + 1]`; for f32 that agrees with the map (`tests/cells.rs`), and it makes
 //! statements about real points exact, though the map rounds.
 //!
 //! A voxelizer lists a sphere in cells of its box: the centre minus and plus the reach of [`crate::margin`],
