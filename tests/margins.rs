@@ -3,7 +3,7 @@
 //! out a margin that is too small: at 0 in any case, and the largest power of two at which it does is printed.
 //!
 //! Coordinates are just above a power of two, where roundings are largest, with the eye on either side of zero by nearly half of what is
-//! rounded off. `CGT_MARGINS_VALUES` says how many neighbours of such a coordinate are taken, 4 every day.
+//! rounded off. `CGT_MARGINS_VALUES` says how many neighbours of such a coordinate are taken, 3 every day.
 
 use contract::{Camera, Size};
 use optimized::frustum::Heading;
@@ -20,7 +20,12 @@ const FINER: i64 = 64;
 const OFF: i64 = 29;
 
 fn values() -> i64 {
-    i64::try_from(count("CGT_MARGINS_VALUES", 4)).expect("few").clamp(1, 32)
+    i64::try_from(count("CGT_MARGINS_VALUES", 3)).expect("few").clamp(1, 32)
+}
+
+/// Of directions of 16 bits every so many on either axis are taken: 2,666 every day.
+fn sparse() -> usize {
+    usize::try_from(8000 / values()).expect("positive")
 }
 
 /// The floats of so many bits from a power of two on, `values` of them.
@@ -36,19 +41,20 @@ fn both(values: &[i64], more: &[i64]) -> Vec<i64> {
     all
 }
 
-/// All directions along (A, Y) of whole numbers of exactly so many bits, Y at most A, ascending in slope.
-fn directions(bits: u32) -> Vec<[i64; 2]> {
+/// All directions along (A, Y) of whole numbers of exactly so many bits, Y at most A, ascending in slope; or of both numbers every `step`-th.
+fn directions(bits: u32, step: usize) -> Vec<[i64; 2]> {
     let most = 1i64 << bits;
-    let mut all: Vec<[i64; 2]> = (most / 2..most).flat_map(|a| (-a..=a).map(move |y| [a, y])).collect();
+    let aside = |a: i64| (-a..=a).step_by(step).map(move |y| [a, y]);
+    let mut all: Vec<[i64; 2]> = (most / 2..most).step_by(step).flat_map(aside).collect();
     // Compared by cross products, so exactly.
     all.sort_unstable_by(|x, y| (x[1] * y[0]).cmp(&(y[1] * x[0])));
     all
 }
 
-/// How many there are: twice the sum of a, and one for each a.
-fn number_of_directions(bits: u32) -> u64 {
-    let low = 1u64 << (bits - 1);
-    low * (3 * low - 1) + low
+/// How many there are.
+fn number_of_directions(bits: u32, step: usize) -> u64 {
+    let low = 1usize << (bits - 1);
+    (0..low.div_ceil(step)).map(|i| 2 * (low + i * step) / step + 1).sum::<usize>() as u64
 }
 
 /// A vector along (A, Y, Z) for the heading of that number.
@@ -84,6 +90,8 @@ fn hold<T: Sync>(what: &str, bits: u32, domain: &[T], check: impl Fn(Trial, &T) 
 /// What rays and slices are made of.
 struct Slicing {
     bits: u32,
+    /// Of directions.
+    step: usize,
     majors: Vec<i64>,
     minors: Vec<i64>,
     reaches: Vec<i64>,
@@ -91,21 +99,32 @@ struct Slicing {
 }
 
 /// A point of a ray in a slice lies between the slice's bounds, and so does whatever centre of a sphere is within reach of it: all floats of 4
-/// bits up to 15 (those of 8-bit floats with 3 of fraction), and floats of 6 bits just above a power of two.
+/// bits up to 15 (those of 8-bit floats with 3 of fraction), and floats of 6 and of 16 bits just above a power of two. With few bits
+/// roundings meet in all ways; with many, margins are small, and whatever else is wrong shows.
 #[test]
 fn a_ray_lies_between_the_bounds_of_its_slices() {
-    let near = above(6);
     let all: Vec<i64> = (-15..=15).collect();
-    let small = Slicing { bits: 4, majors: vec![-1, 0], minors: all.clone(), reaches: vec![0], planes: all };
-    let large = Slicing {
-        bits: 6,
-        majors: vec![-OFF, OFF],
-        minors: both(&near[..near.len() / 2], &[0]),
-        reaches: vec![0, 5 * FINER],
-        planes: both(&near, &[-FINER, -1, 0, 1, FINER, 63 * FINER]),
-    };
-    for Slicing { bits, majors, minors, reaches, planes } in [small, large] {
-        let directions = directions(bits);
+    let mut domains = vec![Slicing {
+        bits: 4,
+        step: 1,
+        majors: vec![-1, 0],
+        minors: all.clone(),
+        reaches: vec![0],
+        planes: all,
+    }];
+    for (bits, step) in [(6, 1), (16, sparse())] {
+        let near = above(bits);
+        domains.push(Slicing {
+            bits,
+            step,
+            majors: vec![-OFF, OFF],
+            minors: both(&near[..near.len() / 2], &[0]),
+            reaches: vec![0, 5 * FINER],
+            planes: both(&near, &[-FINER, -1, 0, 1, FINER, near[0] + near[0] / 2]),
+        });
+    }
+    for Slicing { bits, step, majors, minors, reaches, planes } in domains {
+        let directions = directions(bits, step);
         let rays: Vec<[i64; 3]> = directions
             .iter()
             .enumerate()
@@ -125,7 +144,7 @@ fn a_ray_lies_between_the_bounds_of_its_slices() {
         });
         let pairs = (planes.len() * (planes.len() + 1) / 2) as u64;
         let places = (majors.len() * minors.len() * reaches.len()) as u64;
-        assert_eq!(full.inputs, number_of_directions(bits) * places * pairs * 2);
+        assert_eq!(full.inputs, number_of_directions(bits, step) * places * pairs * 2);
         assert!(full.demanded > full.inputs / 4, "hardly a slice is met: {full:?}");
         assert!(full.dropped > full.inputs / 20, "hardly a slice lies behind: {full:?}");
     }
@@ -169,78 +188,82 @@ fn single(directions: &[[i64; 2]]) -> Vec<[[i64; 3]; 2]> {
 }
 
 /// A ball that a ray of the packet touches is not culled, in the plane of the major and one minor axis, where margins are smallest: all
-/// floats of 4 bits up to 15 (with margins that are as large as coordinates, so that hardly any ball is culled), and floats of 6
-/// bits just above a power of two, in packets of one ray and of two.
+/// floats of 4 bits up to 15 (with margins that are as large as coordinates, so that hardly any ball is culled), and floats of 6 and
+/// of 16 bits just above a power of two, in packets of one ray and of two.
 #[test]
 fn a_ball_that_is_touched_is_not_culled() {
     let all: Vec<i64> = (-15..=15).collect();
-    let balls_of_four = balls(&all, &all, &[0], [&[-1, 0], &[0], &[0]]);
-    assert_eq!(number_of_directions(4), directions(4).len() as u64);
-    culled("culling, one ray", 4, 2, &single(&directions(4)), &balls_of_four);
+    let balls_of_four = balls(&all, &all, &[0], [&[-1], &[0], &[0]]);
+    culled("culling, one ray", 4, 2, &single(&directions(4, 1)), &balls_of_four);
 
-    let bits = 6;
-    let near = above(bits);
-    let (ahead, beside) = (both(&near, &[-FINER, 0, FINER]), both(&near, &[0]));
-    let balls = balls(&ahead, &beside, &[0], [&[-OFF, OFF], &[-OFF, OFF], &[0]]);
-    let all = directions(bits);
-    assert_eq!(number_of_directions(bits), all.len() as u64);
-    let few: Vec<[i64; 2]> = all.iter().copied().step_by(all.len() / 40).collect();
-    let pairs = few.iter().enumerate().flat_map(|(i, &x)| few[i + 1..].iter().map(move |&y| [x, y]));
-    let two: Vec<[[i64; 3]; 2]> = pairs.map(|pair| pair.map(|[a, y]| [a, y, 0])).collect();
-    for (what, radii, packets) in [("culling, one ray", 2, single(&all)), ("culling, two rays", 3, two)] {
-        let full = culled(what, bits, radii, &packets, &balls);
-        assert!(full.dropped > full.inputs / 100, "hardly a ball is culled: {full:?}");
+    for (bits, step) in [(6, 1), (16, sparse())] {
+        let near = above(bits);
+        let ahead = both(&near, &[-FINER, 0, FINER]);
+        let beside = both(&near, &[-near[0] / 2, 0, near[0] / 4]);
+        let balls = balls(&ahead, &beside, &[0], [&[-OFF, OFF], &[-OFF, OFF], &[0]]);
+        let all = directions(bits, step);
+        assert_eq!(number_of_directions(bits, step), all.len() as u64);
+        let few: Vec<[i64; 2]> = all.iter().copied().step_by(all.len() / 40).collect();
+        let pairs = few.iter().enumerate().flat_map(|(i, &x)| few[i + 1..].iter().map(move |&y| [x, y]));
+        let two: Vec<[[i64; 3]; 2]> = pairs.map(|pair| pair.map(|[a, y]| [a, y, 0])).collect();
+        for (what, radii, packets) in [("culling, one ray", 2, single(&all)), ("culling, two rays", 3, two)] {
+            let full = culled(what, bits, radii, &packets, &balls);
+            assert!(full.dropped > full.inputs / 100, "hardly a ball is culled: {full:?}");
+        }
     }
 }
 
 /// The same for rays and balls anywhere in space: rays close to the diagonals.
 #[test]
 fn a_ball_that_is_touched_in_space_is_not_culled() {
-    let bits = 7;
-    let near = above(bits);
-    let beside = both(&near[..near.len().min(2)], &[]);
-    let balls = balls(&near, &beside, &beside, [&[-OFF, OFF]; 3]);
-    let mut packets = Vec::new();
-    for a in 64..128 {
-        for (y, z) in
-            [(a, a), (a, a - 1), (a - 1, a), (a - 2, a - 1), (-a, a - 1), (a - 1, -a), (1 - a, 1 - a)]
-        {
-            packets.push([[a, y, z]; 2]);
+    for (bits, step) in [(7, 1), (16, sparse())] {
+        let near = above(bits);
+        let beside = both(&near[..near.len().min(2)], &[]);
+        let balls = balls(&near, &beside, &beside, [&[-OFF, OFF]; 3]);
+        let mut packets = Vec::new();
+        for a in (near[0] / FINER..2 * near[0] / FINER).step_by(step) {
+            let sides =
+                [(a, a), (a, a - 1), (a - 1, a), (a - 2, a - 1), (-a, a - 1), (a - 1, -a), (1 - a, 1 - a)];
+            packets.extend(sides.map(|(y, z)| [[a, y, z]; 2]));
         }
+        let full = culled("culling in space", bits, 2, &packets, &balls);
+        assert!(full.dropped > full.inputs / 100, "hardly a ball is culled: {full:?}");
     }
-    let full = culled("culling in space", bits, 2, &packets, &balls);
-    assert!(full.dropped > full.inputs / 100, "hardly a ball is culled: {full:?}");
 }
 
-/// A ball that a ray hits has the ray's slopes in its outline, and no point of it is nearer than the outline says; against all directions.
+/// A ball that a ray hits has the ray's slopes in its outline, and no point of it is nearer than the outline says; against all directions of
+/// 10 bits, and a great many of 16.
 #[test]
 fn an_outline_holds_what_hits() {
-    let bits = 10;
-    let directions = directions(bits);
-    let with_eyes = |own: i64| [[own, -OFF], [own, OFF]];
-    let ahead: Vec<[i64; 2]> = above(bits).into_iter().chain([0, -FINER * 512]).flat_map(with_eyes).collect();
-    let beside: Vec<[i64; 2]> = (-64..=64).flat_map(|k| with_eyes(16 * FINER * k)).collect();
-    let radii: [i64; LANES] =
-        [1, 2, 3, 16, 17, 32, 33, 48, 64, 65, 96, 128, 129, 160, 200, 240].map(|radius| FINER * radius);
-    let full = hold("outlines", bits, &beside, |trial, &[y, eye_y]| {
-        let mut judged = Judged::default();
-        for &[a, eye_a] in &ahead {
-            trial.outlines([a, y], [eye_a, eye_y], radii, &directions, &mut judged);
-        }
-        judged
-    });
-    assert_eq!(directions.len() as u64, number_of_directions(bits));
-    let outlines = (ahead.len() * beside.len() * 2 * LANES) as u64;
-    assert_eq!(full.inputs, outlines * number_of_directions(bits));
-    assert!(full.demanded > full.inputs / 100, "hardly a hit: {full:?}");
-    assert!(full.dropped > full.inputs / 20, "hardly a ray outside an outline: {full:?}");
+    for (bits, step) in [(10, 1), (16, sparse() / 16)] {
+        let directions = directions(bits, step);
+        let near = above(bits);
+        let with_eyes = |own: i64| [[own, -OFF], [own, OFF]];
+        let ahead: Vec<[i64; 2]> = near.iter().copied().chain([0, -near[0]]).flat_map(with_eyes).collect();
+        let beside: Vec<[i64; 2]> = (-64..=64).flat_map(|k| with_eyes(near[0] / 32 * k)).collect();
+        let radii: [i64; LANES] = [1, 2, 3, 16, 17, 32, 33, 48, 64, 65, 96, 128, 129, 160, 200, 240]
+            .map(|radius| near[0] / 512 * radius);
+        let full = hold("outlines", bits, &beside, |trial, &[y, eye_y]| {
+            let mut judged = Judged::default();
+            for &[a, eye_a] in &ahead {
+                trial.outlines([a, y], [eye_a, eye_y], radii, &directions, &mut judged);
+            }
+            judged
+        });
+        assert_eq!(directions.len() as u64, number_of_directions(bits, step));
+        let outlines = (ahead.len() * beside.len() * 2 * LANES) as u64;
+        assert_eq!(full.inputs, outlines * number_of_directions(bits, step));
+        assert!(full.demanded > full.inputs / 100, "hardly a hit: {full:?}");
+        assert!(full.dropped > full.inputs / 20, "hardly a ray outside an outline: {full:?}");
+    }
 }
 
 /// All rays of a block have their slopes in its range, and the block passes for each heading that one of them has.
 #[test]
 fn a_range_holds_all_rays_of_a_block() {
     let bits = 16;
-    let spans = [-13i64, -6, -1, 1, 3, 8];
+    // As small as roundings, and so large that the corners differ by more than margins.
+    let spans: [&[i64]; 2] = [&[-13, -6, -1, 1, 3, 8], &[-25_000, -1, 1, 20_000]];
     let near = above(bits);
     let lean = [0, near[0] / 4, near[0] - FINER, near[0]];
     let mut cameras = Vec::new();
@@ -248,7 +271,7 @@ fn a_range_holds_all_rays_of_a_block() {
         #[allow(clippy::cast_precision_loss, reason = "of 16 bits")]
         let turned = |v| turned(v, number).map(|x| x as f32);
         for y in lean {
-            for [a_across, a_down, y_across, y_down] in quadruples(&spans) {
+            for [a_across, a_down, y_across, y_down] in spans.into_iter().flat_map(quadruples) {
                 let (du, dv) = (turned([a_across, y_across, 1]), turned([a_down, y_down, 64]));
                 let size = Size::new(4, 4).expect("one block");
                 let camera = Camera::new([0.0; 3], turned([a, y, -y / 2]), du, dv, size);
@@ -261,7 +284,7 @@ fn a_range_holds_all_rays_of_a_block() {
         trial.tile(camera, &mut judged);
         judged
     });
-    assert_eq!(cameras.len(), near.len() * lean.len() * spans.len().pow(4));
+    assert_eq!(cameras.len(), near.len() * lean.len() * (6usize.pow(4) + 4usize.pow(4)));
     assert_eq!(full.inputs, (cameras.len() * 6 * LANES) as u64);
     assert!(full.demanded >= (cameras.len() * LANES) as u64, "a ray has no heading: {full:?}");
     assert!(full.dropped > full.inputs / 2, "hardly a ray outside: {full:?}");

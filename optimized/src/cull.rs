@@ -9,7 +9,8 @@
 //! [`Machine::unit`]), and within R of the centre. The signed distance is computed with at most 5u (|Y| + |A|) of error (u from the centre's
 //! difference, u each from slope, product and sum). Both are below 16u (|f|₁ + R), |f|₁ the sum of the centre's
 //! coordinates, which is added to R once a frame ([`radius`]); since N >= 1 it covers them. N is enlarged by 16u for
-//! its own rounding. So whatever is dropped has no point P in the frustum: *hit => kept*.
+//! its own rounding. So whatever is dropped has no point P in the frustum: *hit => kept*. (`tests/margins.rs` runs this
+//! on floats of few bits: u is too little, 2u is not.)
 
 use crate::frustum::Frustum;
 use crate::machine::{Machine, Site};

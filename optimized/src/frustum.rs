@@ -11,7 +11,7 @@
 //! u ([`Machine::unit`]), product and sum round once each, in all at most 4u (|eye_Y| + A1) as the slope is at most 1; we take
 //! off and put on 16u (|eye_Y| + A_max), A_max the largest distance of any plane ([`pad`]). So if a point P of a ray lies in
 //! slice i (grid's module text), its Y lies between the two, and by monotony of the cell map its cell is in the
-//! rectangle. Each slice is evaluated afresh, sixteen at a time, one a lane; nothing is summed up from slice to slice.
+//! rectangle. (`tests/margins.rs` runs this on floats of few bits, and finds that 2u is too little and 4u is not.) Each slice is evaluated afresh, sixteen at a time, one a lane; nothing is summed up from slice to slice.
 //!
 //! Where spheres are listed by centre, the cell of P need not list them, but that of the centre does, which is within
 //! w = [`Grid::widen`] of P on each axis. So a slice takes in what the packet passes from A0 − w to A1 + w, and its

@@ -3,7 +3,7 @@
 //! A cell index is always found by one map, [`Axis::cell`]: floor((x − origin) · inverse cell size), clamped. Each
 //! rounding in it is monotone, so the map is monotone over all f32. Hence an axis has exact *planes*:
 //! `planes[i]` is the least f32 in cell i or above, found by binary search over bit patterns. A real number x
-//! is said to lie in cell i if `planes[i] <= x < planes[i + 1]`; for f32 that agrees with the map, and it makes
+//! is said to lie in cell i if `planes[i] <= x < planes[i + 1]`; for f32 that agrees with the map (`tests/cells.rs`), and it makes
 //! statements about real points exact, though the map rounds.
 //!
 //! A voxelizer lists a sphere in cells of its box: the centre minus and plus the reach of [`crate::margin`],
@@ -117,12 +117,12 @@ impl Bounds {
 }
 
 impl Axis {
-    /// Divides lo..hi into n cells, 1 to [`MAX_CELLS`]; into one if lo = hi, since no f32 would lie in the others and yet
-    /// their planes would be those of the one.
+    /// Divides lo..hi into n cells, 1 to [`MAX_CELLS`]; into one if lo = hi or hi − lo is beyond f32, since no f32 would lie in the others
+    /// and yet their planes would be those of the one.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "n is small")]
     pub fn new<M: Machine>(m: M, lo: f32, hi: f32, n: i32) -> Self {
-        let n = if lo < hi { n } else { 1 };
+        let n = if lo < hi && (hi - lo).is_finite() { n } else { 1 };
         let mut axis = Self { n, origin: lo, inverse: n as f32 / (hi - lo), planes: vec![lo] };
         while axis.planes.len() < n.unsigned_abs() as usize {
             axis.find_planes(m, lo, hi);

@@ -2,7 +2,8 @@
 //!
 //! Each f32 operation is done in f64 and rounded to so many bits, to nearest (ties to even) or towards zero. For at most 16 bits
 //! that is the correctly rounded result: sums and products of such numbers, no farther apart than 2²⁸, are exact in f64, and
-//! quotients and roots come no closer to a rounding boundary than f64 resolves. Exponents are f32's: the bounds under test exclude
+//! quotients and roots come no closer to a rounding boundary than f64 resolves. (Of sums farther apart, a truncated one may be off by 2⁻⁵³
+//! of itself, within its unit.) Exponents are f32's: the bounds under test exclude
 //! over- and underflow anyway. Integer lanes and masks are those of the scalar machine.
 
 use optimized::host::Scalar;
