@@ -106,6 +106,7 @@ type Refusal = (&'static [&'static str], &'static [&'static str]);
 
 /// All of these end with code 2, print nothing on standard output, and write nothing.
 const REFUSALS: &[Refusal] = &[
+    (&["prove", "nosuch"], &["no lemma is named nosuch"]),
     // Scenes.
     (&["nosuch"], &["nosuch", "1hvr", "sphereflake:LEVELS"]),
     (&[""], &["\"\" is no scene"]),
@@ -540,6 +541,27 @@ fn a_full_standard_output_is_an_error_and_a_closed_one_is_not() {
         let said = desk.finish(desk.command("sh").args(["-c", &script, CGT]));
         assert_eq!((said.out.as_str(), said.err.as_str()), ("0\n", ""), "{words}: into a closed pipe");
     }
+}
+
+// ---- proofs ----
+
+/// Without a solver nothing is proved, and that is said; but what a solver would get is written all the same.
+#[test]
+fn without_a_solver_nothing_is_proved() {
+    let desk = Desk::new();
+    let mut command = desk.command(CGT);
+    command.env("PATH", "").env_remove("CGT_SOLVERS");
+    let said = desk.finish(command.args(["prove", "walk", "--smt", "smt", "--json", "prove.json"]));
+    assert_eq!(said.code, 3, "{}{}", said.out, said.err);
+    assert!(said.out.contains("not judged: no solver was found"), "{}", said.out);
+    assert!(!said.out.contains("proved") && !said.out.contains("refuted"), "{}", said.out);
+    let found: Value = serde_json::from_slice(&std::fs::read(desk.path("prove.json")).expect("it is there"))
+        .expect("it is JSON");
+    assert_eq!(found["lemmas"][0]["name"], "walk.successor");
+    assert_eq!(found["lemmas"][0]["outcome"], "not-judged");
+    let text = std::fs::read_to_string(desk.path("smt/walk.successor.smt2")).expect("it is there");
+    assert!(text.starts_with("; in0 is slice\n") && text.contains("\n(check-sat)\n"), "{text}");
+    assert_eq!(files(&desk.path("smt")).len(), found["lemmas"].as_array().expect("a list").len());
 }
 
 // ---- how much it can hold ----

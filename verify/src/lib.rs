@@ -4,8 +4,9 @@
 //! set that every tracer is held against, [`directed`] makes rays that lie where decisions are close, [`seed`] draws what
 //! is random. What is judged: [`subject`], of other people `peers` (behind
 //! the feature of that name). How: [`judge`] by bits and by error bounds and by an outside witness
-//! (`embree`, behind the feature of that name), [`visible`] from inside the grid
-//! tracer, [`bounds`] and [`margins`] on floats so small that all inputs can be tried, [`cells`] on all f32; a [`verdict`] is what they say. [`run`] does it all for one frame, [`bench`](mod@bench) says how
+//! (`embree`, behind the feature of that name), [`visible`] from inside the grid tracer, [`bounds`], [`margins`] and [`rounding`] on floats
+//! so [`small`] or so [`few`] of bits that all inputs can be tried, [`cells`] on all f32, [`prove`] by solvers for all inputs; a [`verdict`]
+//! is what they say. [`run`] does it all for one frame, [`bench`](mod@bench) says how
 //! fast, [`spu`] how fast on the paper's processor; [`claims`], [`picture`] and [`report`] show it.
 
 pub mod directed;

@@ -179,6 +179,11 @@ impl std::fmt::Display for Proofs {
         for Found { statement, found, .. } in &self.claims {
             writeln!(f, "{:10} {statement}", found.map_or("not judged", Evidence::word))?;
         }
+        for Faults { kernel, open, .. } in &self.faults {
+            for fault in open {
+                writeln!(f, "open: {kernel}: {fault}: no solver could tell in time")?;
+            }
+        }
         for name in &self.left_out {
             writeln!(f, "left out: {name} takes long; --long proves it")?;
         }

@@ -115,6 +115,15 @@ pub const CLAIMS: [Claim; 9] = [
 ];
 
 impl Claim {
+    /// The command that proves it again: the beginnings of its lemmas' names.
+    #[must_use]
+    pub fn command(&self) -> String {
+        let mut stems: Vec<&str> =
+            self.lemmas.iter().map(|name| name.split('.').next().unwrap_or(name)).collect();
+        stems.dedup();
+        format!("cargo run --release -- prove {}", stems.join(" "))
+    }
+
     /// What stands beside it in the table: counted, not remembered.
     #[must_use]
     pub fn figure(&self) -> String {
