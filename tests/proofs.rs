@@ -7,15 +7,13 @@ use optimized::machine::{LANES, Machine, Site};
 use std::os::unix::fs::PermissionsExt;
 use std::time::Duration;
 use verify::prove::claims::{CLAIMS, lemmas};
+use verify::prove::prover::{Effort, Outcome, any_bits, break_each, prove};
 use verify::prove::run::{kernels, run};
 use verify::prove::smt::{Numbers, query};
 use verify::prove::solver::{Reply, Solver};
 use verify::prove::symbolic::{ExploreError, Lanes, MAX_DOORS, Space, Symbolic, explore};
 use verify::prove::term::{Node, Op, Sort, Term, Terms};
-use verify::prove::theorem::{
-    Ask, Effort, Expected, Explored, Lemma, Outcome, Provable, Statement, Theorem, any_bits, break_each,
-    prove,
-};
+use verify::prove::theorem::{Ask, Expected, Explored, Lemma, Provable, Statement, Theorem};
 use verify::seed::{generator, seed};
 
 /// The solvers that are there; none is told.

@@ -1,8 +1,9 @@
 //! Claims put to the solvers, and what came of it: lemma by lemma, kernel by kernel.
 
 use super::claims::{CLAIMS, Claim, NONE, lemmas};
+use super::prover::{Effort, Faults, Finding, Outcome, break_each, prove};
 use super::solver::Solver;
-use super::theorem::{Effort, Expected, Faults, Finding, Lemma, Outcome, break_each, prove};
+use super::theorem::{Expected, Lemma};
 use crate::report::Evidence;
 use crate::seed::generator;
 use rayon::prelude::*;
