@@ -4,6 +4,8 @@ pub mod cell;
 pub mod find;
 pub mod nearest;
 pub mod queue;
+mod real;
+pub mod rounding;
 pub mod visible;
 pub mod walk;
 
@@ -134,10 +136,18 @@ impl Claim {
 /// All lemmas, in the order of the claims.
 #[must_use]
 pub fn lemmas() -> Vec<Lemma> {
-    [walk::lemmas(), queue::lemmas(), cell::lemmas(), nearest::lemmas(), find::lemmas(), visible::lemmas()]
-        .into_iter()
-        .flatten()
-        .collect()
+    [
+        walk::lemmas(),
+        queue::lemmas(),
+        cell::lemmas(),
+        nearest::lemmas(),
+        find::lemmas(),
+        visible::lemmas(),
+        rounding::lemmas(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
 }
 
 /// x = y.
