@@ -348,8 +348,7 @@ fn outside<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let far = s - b;
     claim(
         vec![
-            ("the eye is outside", zero.below(q)),
-            ("b is negative", b.below(zero)),
+            ("the eye is outside, and b negative", r.all(&[zero.below(q), b.below(zero)])),
             ("a is positive", zero.below(a)),
             ("S is √D", r.all(&[r.not_negative([s]), s.square().equals(b.square() - a * q)])),
             ("t is q / (S − b)", (t * far).equals(q)),
@@ -420,7 +419,7 @@ fn half_way<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 /// Step 10: roots of what differs by x.
 fn roots<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [own, computed, z] = r.each(["√D", "√D̂", "z"]);
-    let (zero, one) = (r.number(0.0), r.number(1.0));
+    let zero = r.number(0.0);
     let x = 2.0 * z - z.square();
     claim(
         vec![
@@ -431,7 +430,6 @@ fn roots<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
                     (own.square() - computed.square()).within(x * computed.square()),
                 ])
             }),
-            ("z is from 0 to 1", r.all(&[zero.at_most(z), z.at_most(one)])),
         ],
         vec![],
         vec![("√D̂ is off by at most z of itself", (own - computed).within(z * computed))],
@@ -510,7 +508,10 @@ fn share<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     claim(
         vec![("v, z, y and β/σ are in range", ranges)],
         vec![],
-        vec![("17 c (1 − v) is at most 10 e₀ − 33 v", (17.0 * c).at_most(10.0 * rest - 33.0 * v))],
+        vec![
+            ("17 c (1 − v) is at most 10 e₀ − 33 v", (17.0 * c).at_most(10.0 * rest - 33.0 * v)),
+            ("c (1 − v) is at most e₀ − 4 v", c.at_most(rest - 4.0 * v)),
+        ],
     )
 }
 
@@ -524,7 +525,8 @@ fn quotient_above<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M:
             ("v is in range", r.in_unit(v, 256.0)),
             ("ε is not negative", r.not_negative([own])),
             ("c is at most its share", (17.0 * c).at_most(10.0 * rest - 33.0 * v)),
-            ("e₀ has 4 v", (4.0 * v).at_most(rest)),
+            ("and at most e₀ − 4 v", c.at_most(rest - 4.0 * v)),
+            ("and not negative", r.not_negative([c])),
             ("e is below 1/2", e.below(r.ratio(1.0, 2.0))),
         ],
         vec![],
@@ -539,11 +541,7 @@ fn quotient_below<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M:
     let own = r.get("ε");
     let (d, e) = (1.0 - v, (1.0 + 27.0 * v) * (own + rest));
     claim(
-        vec![
-            ("v, z, y and β/σ are in range", ranges),
-            ("ε is not negative", r.not_negative([own])),
-            ("e is below 1/2", e.below(r.ratio(1.0, 2.0))),
-        ],
+        vec![("v, z, y and β/σ are in range", ranges), ("ε is not negative", r.not_negative([own]))],
         vec![],
         vec![("(1 − e)(1 + c)(1 + v)³ is at most (1 − ε)(1 − v)", {
             ((1.0 - e) * (d + c) * (1.0 + v).power(3)).at_most((1.0 - own) * d.square())
@@ -551,42 +549,62 @@ fn quotient_below<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M:
     )
 }
 
-/// The true root between the ends that a quotient has, if step 13 holds.
-fn quotient_ends<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
+/// The upper end of a quotient, if step 13 holds: in units of the computed q.
+fn quotient_hi<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, c, own, e] = r.each(["v", "c", "ε", "e"]);
     let [q, sum, t] = r.each(["q", "Σ", "t"]);
-    let [computed_sum, computed_t, lo, hi] = r.each(["σ", "t̂", "lo", "hi"]);
+    let [computed_sum, computed_t, hi] = r.each(["σ", "t̂", "hi"]);
     let (zero, one) = (r.number(0.0), r.number(1.0));
     let (d, s) = (1.0 - v, 1.0 + v);
-    // In units of the computed q.
     claim(
         vec![
-            ("v, e and c are in range", {
-                r.all(&[zero.at_most(v), v.below(one), zero.at_most(e), e.below(one), c.below(one)])
+            ("v, e and c are in range", r.all(&[r.not_negative([v, e]), v.below(one), c.below(one)])),
+            ("q is at most 1 + ε", q.at_most(1.0 + own)),
+            ("Σ is at least 1 − c of σ, which is positive", {
+                r.all(&[((1.0 - c) * computed_sum).at_most(sum), zero.below(computed_sum)])
             }),
-            ("q is off by at most ε", (q - 1.0).within(own)),
-            ("Σ is off by at most c, and σ positive", {
-                r.all(&[(sum - computed_sum).within(c * computed_sum), zero.below(computed_sum)])
-            }),
-            ("t is q / Σ", (t * sum).equals(q)),
-            ("t̂ has two roundings", {
-                r.all(&[d.at_most(computed_t * computed_sum * s), (computed_t * computed_sum * d).at_most(s)])
-            }),
-            ("each end has two more", {
-                r.all(&[
-                    lo.at_most(computed_t * (1.0 - e) * s.square()),
-                    (computed_t * (1.0 + e) * d.square()).at_most(hi),
-                ])
-            }),
-            ("step 13 holds, upper end", ((1.0 + own) * s).at_most((1.0 - c) * (1.0 + e) * d.power(3))),
-            ("step 13 holds, lower end", ((1.0 - e) * (1.0 + c) * s.power(3)).at_most((1.0 - own) * d)),
+            ("t is q / Σ", r.all(&[(t * sum).equals(q), r.not_negative([t])])),
+            ("t̂ has two roundings", d.at_most(computed_t * computed_sum * s)),
+            ("the end has two more", (computed_t * (1.0 + e) * d.square()).at_most(hi)),
+            ("step 13 holds", ((1.0 + own) * s).at_most((1.0 - c) * (1.0 + e) * d.power(3))),
         ],
         vec![
-            ("Σ is positive", zero.below(sum)),
             ("t σ (1 − c) is at most 1 + ε", (t * computed_sum * (1.0 - c)).at_most(1.0 + own)),
-            ("t σ (1 + c) is at least 1 − ε", (1.0 - own).at_most(t * computed_sum * (1.0 + c))),
+            ("which is at most the end's", {
+                ((1.0 + own) * s)
+                    .at_most((1.0 - c) * (computed_t * computed_sum * s * (1.0 + e) * d.square()))
+            }),
         ],
-        vec![("lo is at most t", lo.at_most(t)), ("t is at most hi", t.at_most(hi))],
+        vec![("t is at most hi", t.at_most(hi))],
+    )
+}
+
+/// The lower end.
+fn quotient_lo<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
+    let [v, c, own, e] = r.each(["v", "c", "ε", "e"]);
+    let [q, sum, t] = r.each(["q", "Σ", "t"]);
+    let [computed_sum, computed_t, lo] = r.each(["σ", "t̂", "lo"]);
+    let (zero, one) = (r.number(0.0), r.number(1.0));
+    let (d, s) = (1.0 - v, 1.0 + v);
+    claim(
+        vec![
+            ("v, e and c are in range", { r.all(&[r.not_negative([v, c]), v.below(one), e.at_most(one)]) }),
+            ("q is at least 1 − ε", (1.0 - own).at_most(q)),
+            ("Σ is at most 1 + c of σ, and positive, as that is", {
+                r.all(&[sum.at_most((1.0 + c) * computed_sum), zero.below(sum), zero.below(computed_sum)])
+            }),
+            ("t is q / Σ", r.all(&[(t * sum).equals(q), r.not_negative([t])])),
+            ("t̂ has two roundings", (computed_t * computed_sum * d).at_most(s)),
+            ("the end has two more", lo.at_most(computed_t * (1.0 - e) * s.square())),
+            ("step 13 holds", ((1.0 - e) * (1.0 + c) * s.power(3)).at_most((1.0 - own) * d)),
+        ],
+        vec![
+            ("t σ (1 + c) is at least 1 − ε", (1.0 - own).at_most(t * computed_sum * (1.0 + c))),
+            ("which is at least the end's", {
+                (d * computed_t * computed_sum * (1.0 - e) * (1.0 + c) * s.square()).at_most((1.0 - own) * d)
+            }),
+        ],
+        vec![("lo is at most t", lo.at_most(t))],
     )
 }
 
@@ -609,7 +627,7 @@ fn sum_below<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let d = 1.0 - v;
     let e = (1.0 + 27.0 * v) * (3.0 * v + rest);
     claim(
-        vec![("v, z, y and β/σ are in range", ranges), ("e is below 1/2", e.below(r.ratio(1.0, 2.0)))],
+        vec![("v, z, y and β/σ are in range", ranges)],
         vec![],
         vec![("(1 − e)(1 + v)⁴ is at most (1 − c)(1 − v)²", {
             ((1.0 - e) * (1.0 + v).power(4) * d).at_most((d - c) * d.square())
@@ -617,37 +635,36 @@ fn sum_below<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     )
 }
 
-/// The true root between the ends that a sum over a has, if step 14 holds.
-fn sum_ends<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
-    let [v, c, e, sum, t] = r.each(["v", "c", "e", "Σ", "a t"]);
-    let [computed_t, lo, hi] = r.each(["a t̂", "a lo", "a hi"]);
-    let (zero, one) = (r.number(0.0), r.number(1.0));
+/// The ends of a sum over a, if step 14 holds: in units of σ / a.
+fn sum_hi<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
+    let [v, c, e, t, computed, hi] = r.each(["v", "c", "e", "t", "t̂", "hi"]);
     let (d, s) = (1.0 - v, 1.0 + v);
-    // In units of σ.
     claim(
         vec![
-            ("v and e are in range", {
-                r.all(&[zero.at_most(v), v.below(one), zero.at_most(e), e.below(one)])
-            }),
-            ("Σ is off by at most c", (sum - 1.0).within(c)),
-            ("t is Σ / a", t.equals(sum)),
-            ("t̂ has four roundings", {
-                r.all(&[
-                    d.square().at_most(computed_t * s.square()),
-                    (computed_t * d.square()).at_most(s.square()),
-                ])
-            }),
-            ("each end has two more", {
-                r.all(&[
-                    lo.at_most(computed_t * (1.0 - e) * s.square()),
-                    (computed_t * (1.0 + e) * d.square()).at_most(hi),
-                ])
-            }),
-            ("step 14 holds, upper end", ((1.0 + c) * s.square()).at_most((1.0 + e) * d.power(4))),
-            ("step 14 holds, lower end", ((1.0 - e) * s.power(4)).at_most((1.0 - c) * d.square())),
+            ("v and e are in range", r.all(&[r.not_negative([v, e]), v.below(r.number(1.0))])),
+            ("Σ is at most 1 + c", t.at_most(1.0 + c)),
+            ("t̂ has four roundings", d.square().at_most(computed * s.square())),
+            ("the end has two more", (computed * (1.0 + e) * d.square()).at_most(hi)),
+            ("step 14 holds", ((1.0 + c) * s.square()).at_most((1.0 + e) * d.power(4))),
         ],
         vec![],
-        vec![("lo is at most t", lo.at_most(t)), ("t is at most hi", t.at_most(hi))],
+        vec![("t is at most hi", t.at_most(hi))],
+    )
+}
+
+fn sum_lo<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
+    let [v, c, e, t, computed, lo] = r.each(["v", "c", "e", "t", "t̂", "lo"]);
+    let (d, s, one) = (1.0 - v, 1.0 + v, r.number(1.0));
+    claim(
+        vec![
+            ("v and e are in range", r.all(&[r.not_negative([v]), v.below(one), e.at_most(one)])),
+            ("Σ is at least 1 − c", (1.0 - c).at_most(t)),
+            ("t̂ has four roundings", (computed * d.square()).at_most(s.square())),
+            ("the end has two more", lo.at_most(computed * (1.0 - e) * s.square())),
+            ("step 14 holds", ((1.0 - e) * s.power(4)).at_most((1.0 - c) * d.square())),
+        ],
+        vec![],
+        vec![("lo is at most t", lo.at_most(t))],
     )
 }
 
@@ -825,7 +842,6 @@ fn short_total<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
     claim(
         vec![
             ("v is in range", r.in_unit(v, 4096.0)),
-            ("√g and m are lengths", r.not_negative([h, m])),
             ("b is at most −√(a q), and S not negative", {
                 r.all(&[b.at_most(-one), r.not_negative([s])])
             }),
@@ -868,7 +884,6 @@ fn short_terms<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Short<M> {
         ("√g and F/(√κ r) are in range", {
             r.all(&[one.at_most(h), g.at_most(r.ratio(201.0, 100.0)), zero.at_most(m)])
         }),
-        ("e is used below √(2 v)", r.all(&[zero.below(e), e.square().at_most(2.0 * v)])),
         ("e is said as it is", (v * g * (16.0 + 20.0 * m)).at_most(e)),
     ];
     Short { v, c, q: r.ratio(601.0, 100.0) * v * g, e, assume }
@@ -898,6 +913,52 @@ fn short_below<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
     )
 }
 
+/// The upper end of the short way, if step 7 holds.
+fn short_hi<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
+    let [v, c, q, e] = r.each(["v", "c", "ε", "e"]);
+    let [t, computed_t, hi] = r.each(["t", "t̂", "hi"]);
+    let (d, s) = (1.0 - v, 1.0 + v);
+    claim(
+        vec![
+            ("v, c and e are in range", r.all(&[r.not_negative([v, c, e]), v.below(r.number(1.0))])),
+            ("t is positive", r.not_negative([t])),
+            ("t̂ has the errors of q and Σ, and two roundings", {
+                (t * (1.0 - q) * d).at_most(computed_t * (1.0 + c) * s)
+            }),
+            ("the end has two more, of which e has one", (computed_t * (1.0 + e * d) * d).at_most(hi)),
+            ("step 7 holds", ((1.0 + c) * s).at_most((1.0 - q) * d.square() * (1.0 + e * d))),
+        ],
+        vec![("t is at most the end, times (1 + c)(1 + v)", {
+            (t * (1.0 + c) * s).at_most(computed_t * (1.0 + c) * s * (1.0 + e * d) * d)
+        })],
+        vec![("t is at most hi", t.at_most(hi))],
+    )
+}
+
+/// The lower end.
+fn short_lo<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
+    let [v, c, q, e] = r.each(["v", "c", "ε", "e"]);
+    let [t, computed_t, lo] = r.each(["t", "t̂", "lo"]);
+    let (d, s, one) = (1.0 - v, 1.0 + v, r.number(1.0));
+    claim(
+        vec![
+            ("v, c and e are in range", {
+                r.all(&[r.not_negative([v]), v.below(one), c.below(one), (e * d).at_most(one)])
+            }),
+            ("t is positive", r.not_negative([t])),
+            ("t̂ has the errors of q and Σ, and two roundings", {
+                (computed_t * (1.0 - c) * d).at_most(t * (1.0 + q) * s)
+            }),
+            ("the end has two more, of which e has one", lo.at_most(computed_t * (1.0 - e * d) * s)),
+            ("step 7 holds", ((1.0 + q) * s.square() * (1.0 - e * d)).at_most((1.0 - c) * d)),
+        ],
+        vec![("the end is at most t, times (1 − c)(1 − v)", {
+            (computed_t * (1.0 - c) * d * (1.0 - e * d) * s).at_most(t * (1.0 - c) * d)
+        })],
+        vec![("lo is at most t", lo.at_most(t))],
+    )
+}
+
 /// The lemmas.
 #[must_use]
 pub fn lemmas() -> Vec<Lemma> {
@@ -907,6 +968,19 @@ pub fn lemmas() -> Vec<Lemma> {
         &[("f x", ONE), ("f y", TWO), ("f z", HALF), ("d x", HALF), ("d y", ONE), ("d z", TWO)];
     let of_terms: &[(&str, u32)] =
         &[("v", SMALL), ("z", SIXTEENTH), ("y", HALF), ("β/σ", SIXTEENTH), ("ε", SIXTEENTH)];
+    let of_ends: &[(&str, u32)] = &[
+        ("v", SMALL),
+        ("c", SIXTEENTH),
+        ("ε", SIXTEENTH),
+        ("e", HALF),
+        ("q", ONE),
+        ("Σ", ONE),
+        ("t", ONE),
+        ("σ", ONE),
+        ("t̂", ONE),
+        ("lo", QUARTER),
+        ("hi", TWO),
+    ];
     let of_short: &[(&str, u32)] = &[("v", SMALLER), ("√g", ONE), ("m", ZERO), ("e", TINY)];
     vec![
         lemma(
@@ -1069,40 +1143,21 @@ pub fn lemmas() -> Vec<Lemma> {
             step!(quotient_below),
         ),
         lemma(
-            "rounding.root.13.ends",
-            "So the true root is between the ends of a quotient",
-            &[
-                ("v", SMALL),
-                ("c", SIXTEENTH),
-                ("ε", SIXTEENTH),
-                ("e", HALF),
-                ("q", ONE),
-                ("Σ", ONE),
-                ("t", ONE),
-                ("σ", ONE),
-                ("t̂", ONE),
-                ("lo", HALF),
-                ("hi", TWO),
-            ],
-            step!(quotient_ends),
+            "rounding.root.13.hi",
+            "So the true root is not above the upper end of a quotient",
+            of_ends,
+            step!(quotient_hi),
         ),
+        lemma("rounding.root.13.lo", "Nor below the lower end", of_ends, step!(quotient_lo)),
         lemma("rounding.root.14.upper", "(1 + c)(1 + v)² <= (1 + e)(1 − v)⁴", of_terms, step!(sum_above)),
         lemma("rounding.root.14.lower", "(1 − e)(1 + v)⁴ <= (1 − c)(1 − v)²", of_terms, step!(sum_below)),
         lemma(
-            "rounding.root.14.ends",
-            "So it is between the ends of a sum over a",
-            &[
-                ("v", SMALL),
-                ("c", SIXTEENTH),
-                ("e", HALF),
-                ("Σ", ONE),
-                ("a t", ONE),
-                ("a t̂", ONE),
-                ("a lo", HALF),
-                ("a hi", TWO),
-            ],
-            step!(sum_ends),
+            "rounding.root.14.hi",
+            "So it is not above the upper end of a sum over a",
+            of_ends,
+            step!(sum_hi),
         ),
+        lemma("rounding.root.14.lo", "Nor below the lower end", of_ends, step!(sum_lo)),
         lemma(
             "rounding.short.1",
             "q's and b's roundings are at most 6.01 v and 4.01 v",
@@ -1134,7 +1189,7 @@ pub fn lemmas() -> Vec<Lemma> {
         lemma(
             "rounding.short.3",
             "Where the short way is gone, 20 v F² is below κ r² / 10",
-            &[("v", SMALL), ("e", TINY), ("√κ", ONE), ("g", ONE), ("F/r", ONE)],
+            &[("v", SMALLER), ("e", TINY), ("√κ", ONE), ("g", ONE), ("F/r", ONE)],
             step!(short_said),
         ),
         lemma(
@@ -1146,7 +1201,7 @@ pub fn lemmas() -> Vec<Lemma> {
         lemma(
             "rounding.short.4.b",
             "b's sign is certain",
-            &[("v", SMALLER), ("b", MINUS_ONE), ("b̂", MINUS_ONE), ("√g", ONE)],
+            &[("v", SMALLER), ("b", MINUS_TWO), ("b̂", MINUS_TWO), ("√g", ONE)],
             step!(short_ahead),
         ),
         lemma(
@@ -1188,5 +1243,12 @@ pub fn lemmas() -> Vec<Lemma> {
             of_short,
             step!(short_below),
         ),
+        lemma(
+            "rounding.short.7.hi",
+            "As t has the errors of q and Σ, and four roundings",
+            of_ends,
+            step!(short_hi),
+        ),
+        lemma("rounding.short.7.lo", "And so has the lower end", of_ends, step!(short_lo)),
     ]
 }
