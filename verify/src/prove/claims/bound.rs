@@ -290,6 +290,7 @@ fn a<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
         vec![
             ("γ2 + γ5 (y² + z²) is at most β a", (two + five * w).at_most(beta * (1.0 + w))),
             ("β is below 1", beta.below(r.number(1.0))),
+            ("γ3 is at most 1", gamma(u, 3).at_most(r.number(1.0))),
         ],
     )
 }
@@ -1007,7 +1008,7 @@ pub fn lemmas() -> Vec<Lemma> {
         ),
         lemma(
             "bound.a",
-            "a is off by at most β, which is below 1",
+            "a is off by at most β, which is below 1, as γ3 is",
             &[("u", SMALL), ("y² + z²", ONE)],
             step!(a),
         ),
