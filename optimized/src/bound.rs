@@ -71,6 +71,8 @@
 //!
 //! Each of the three is at most a form in r and m ([`Rule`]), of second degree for the signs and, since √(r m) <= (r + m)/2, of first
 //! degree for the root; so a sphere's bound takes a few operations, and sixteen take no more.
+//!
+//! A solver checks each of these inequalities: `cargo run --release -- prove bound`.
 
 use crate::camera::spread;
 use crate::host::Scalar;

@@ -58,6 +58,8 @@
 //!    which is below 0.1 e as e < 0.11.
 //!
 //! κ is 2⁻¹² for f64, so 20/√κ is 1280; for F we take |f|₁, the sum of f's components.
+//!
+//! A solver checks each inequality of both derivations: `cargo run --release -- prove rounding`.
 
 use crate::float::Float;
 use crate::machine::{LANES, Machine};
