@@ -71,7 +71,7 @@ pub const CLAIMS: [Claim; 11] = [
         statement: "Eight corners miss no cell if objects are no larger than cells (the paper)",
         evidence: Evidence::Refuted,
         lemmas: &["cell.corners.equal", "cell.corners.below", "cell.corners"],
-        beside: "the f32 next below 0.5 with radius 0.5 in cells of 1; 2⁻¹⁴ of a cell less is enough there, and each run certifies its own grid",
+        beside: "in unit cells from −8 a ball of radius 0.5 about 0.49999949 is listed in cells 7 and 9 and not in 8; a diameter of 2⁻¹⁴ less is enough there, and each run certifies its own grid",
     },
     Claim {
         statement: "The nearest hit with the lowest id stays, in whatever order spheres come; what is not marked is certain",
