@@ -534,11 +534,12 @@ impl Lemma {
         if let Some((_, outcome)) = said.into_iter().nth(best) {
             finding.outcome = outcome;
         }
-        let as_expected = match (&finding.outcome, self.expected) {
-            (Outcome::Proved, Expected::Holds) | (Outcome::Refuted(_), Expected::Fails) => true,
-            (Outcome::NotShown(_) | Outcome::NotJudged, _) => true,
-            _ => false,
-        };
+        let as_expected = matches!(
+            (&finding.outcome, self.expected),
+            (Outcome::Proved, Expected::Holds)
+                | (Outcome::Refuted(_), Expected::Fails)
+                | (Outcome::NotShown(_) | Outcome::NotJudged, _)
+        );
         if !as_expected {
             finding.wrong.push(format!("expected: {:?}; found: {:?}", self.expected, finding.outcome));
         }
