@@ -9,9 +9,7 @@
 //! one is at most u/2, by the spacing of floats below 1; what underflows, by the range of the inputs; and that [`optimized::bound::Rule`]
 //! rounds its coefficients up. All inputs of floats of 8 bits go through the same source in `tests/bound.rs`.
 
-use super::real::{
-    HALF, ONE, QUARTER, Real, Reals, SIXTEENTH, SMALL, TWO, ZERO, follows as claim, lemma, step,
-};
+use super::real::{HALF, ONE, QUARTER, Real, Reals, SIXTEENTH, SMALL, TWO, ZERO, follows, lemma, step};
 use crate::prove::theorem::{Ask, Lemma, Statement};
 use optimized::machine::Machine;
 
@@ -39,7 +37,7 @@ fn cross<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let s = r.each(["y", "z"]);
     let [y, z] = s;
     let e = map([b - y * a, c - z * a], s);
-    claim(
+    follows(
         vec![],
         vec![],
         vec![
@@ -84,7 +82,7 @@ fn split<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let e = c - parts.y * a;
     let computed = (c * (1.0 + of_c) - parts.slope * (a * (1.0 + of_a)) * (1.0 + product)) * (1.0 + last);
     let eta = -(a * of_a);
-    claim(
+    follows(
         vec![],
         vec![],
         vec![("the error is η y, a part of e and a part of c A", {
@@ -95,7 +93,7 @@ fn split<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 
 fn own<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [u, first, last] = r.each(["u", "δ1", "δ4"]);
-    claim(
+    follows(
         vec![("each rounding is within u", r.within([first, last], u))],
         vec![],
         vec![("both are within γ2", ((1.0 + first) * (1.0 + last) - 1.0).within(gamma(u, 2)))],
@@ -115,7 +113,7 @@ fn parts<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let one = r.number(1.0);
     let inner = parts.y * of_c - parts.zeta * (1.0 + of_a) - parts.slope * (1.0 + of_a) * product;
     let sum = u + (1.0 + u) * u / 2.0 + (1.0 + u) * u;
-    claim(
+    follows(
         vec![
             ("each rounding is within u", r.within(parts.delta, u)),
             ("the slope's is within u/2", parts.zeta.within(u / 2.0)),
@@ -143,7 +141,7 @@ fn parts<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn rest<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [u, before, last, both] = r.each(["u", "before", "δ4", "both"]);
     let sum = u + (1.0 + u) * u / 2.0 + (1.0 + u) * u;
-    claim(
+    follows(
         vec![
             ("before the last rounding it is within that", before.within(sum)),
             ("the last is within u", last.within(u)),
@@ -157,7 +155,7 @@ fn rest<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn component<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [e, a, g, h] = r.each(["e Y", "c A", "own", "rest"]);
     let [two, k, m] = r.each(["γ2", "K", "m"]);
-    claim(
+    follows(
         vec![
             ("the part of e is within γ2", g.within(two)),
             ("the part of c A is within K", h.within(k)),
@@ -176,7 +174,7 @@ fn mapped<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = [alpha[0] + eta * s[0], alpha[1] + eta * s[1]];
     let product = alpha[0] * s[0] + alpha[1] * s[1];
     let a = length(s);
-    claim(
+    follows(
         vec![],
         vec![],
         vec![
@@ -196,7 +194,7 @@ fn constant<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [km, um] = r.each(["K m", "u m"]);
     let size = alpha[0].square() + alpha[1].square() + eta.square();
     let three = r.number(3.0);
-    claim(
+    follows(
         vec![
             ("slopes are at most 1", r.within(s, r.number(1.0))),
             ("α is at most K m", r.within(alpha, km)),
@@ -218,7 +216,7 @@ fn scaled<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let two = r.get("γ2");
     let size = alpha[0].square() + alpha[1].square();
     let of_e = e[0].square() + e[1].square();
-    claim(
+    follows(
         vec![
             ("slopes are at most 1", r.within(s, r.number(1.0))),
             ("α is at most γ2 of e", {
@@ -242,7 +240,7 @@ fn products<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let one = r.number(1.0);
     let sum = p * z + q * y;
     let most = r.number(2.0).root() * long;
-    claim(
+    follows(
         vec![
             ("slopes are at most 1", r.all(&[r.not_negative([y, z]), y.at_most(one), z.at_most(one)])),
             ("γ2 and k are not negative", r.not_negative([two, k])),
@@ -264,7 +262,7 @@ fn products<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 /// With k the product of the two.
 fn triangle<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [one, other, k, sum] = r.each(["|x|", "|y|", "x·y", "|x + y|"]);
-    claim(
+    follows(
         vec![
             ("lengths are not negative", r.not_negative([one, other])),
             ("a product of vectors is at most that of their lengths", k.within(one * other)),
@@ -281,7 +279,7 @@ fn a<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [u, w] = r.each(["u", "y² + z²"]);
     let (two, five) = (gamma(u, 2), gamma(u, 5));
     let beta = (two + 2.0 * five) / 3.0;
-    claim(
+    follows(
         vec![
             ("u is in range", in_range(r, u)),
             ("y² + z² is at most 2", r.all(&[r.not_negative([w]), w.at_most(r.number(2.0))])),
@@ -302,7 +300,7 @@ fn in_range<M: Machine>(r: &Reals<'_, M, impl Ask<M>>, u: Real<M>) -> M::B {
 fn kappa<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [u, beta, b, first, second] = r.each(["u", "β", "of a", "δ1", "δ2"]);
     let two = (1.0 + first) * (1.0 + second);
-    claim(
+    follows(
         vec![
             ("a is off by at most β", b.within(beta)),
             ("two more are within u", r.within([first, second], u)),
@@ -345,7 +343,7 @@ fn not_negative<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B
     let [s, e, computed_s, computed_e, sum] = r.each(["a r²", "|e|", "fl(a r²)", "|ê|", "fl(|ê|²)"]);
     let [kappa, gamma, rho, x] = r.each(["κ", "γ3", "ρ", "x"]);
     let sign = Sign { s, e, z: computed_s - sum, kappa, gamma, rho, x };
-    claim(
+    follows(
         vec![
             ("D is not negative", e.square().at_most(s)),
             ("a r² is at most ρ²", r.all(&[r.not_negative([rho]), s.at_most(rho.square())])),
@@ -382,7 +380,7 @@ fn negative<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let sign = Sign { s, e, z: computed_s - sum, kappa, gamma, rho, x };
     let off = p + rate * s;
     let (zero, one) = (r.number(0.0), r.number(1.0));
-    claim(
+    follows(
         vec![
             ("D is negative", s.below(e)),
             ("√a r is at most ρ, and a length", r.all(&[zero.at_most(s), s.at_most(rho)])),
@@ -429,7 +427,7 @@ fn hit_above<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [kappa, gamma, rho, x] = r.each(["κ", "γ3", "ρ", "x"]);
     let sign = Sign { s, e, z: computed_s - sum, kappa, gamma, rho, x };
     let (zero, one) = (r.number(0.0), r.number(1.0));
-    claim(
+    follows(
         vec![
             ("D is not negative", e.square().at_most(s)),
             ("a r² is at most ρ²", r.all(&[r.not_negative([rho]), s.at_most(rho.square())])),
@@ -472,7 +470,7 @@ fn larger<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [kappa, gamma, rho, x] = r.each(["κ", "γ3", "ρ", "x"]);
     let zero = r.number(0.0);
     let sign = Sign { s: zero, e: zero, z: zero, kappa, gamma, rho, x };
-    claim(
+    follows(
         vec![("γ3, ρ and x are not negative", r.not_negative([gamma, rho, x]))],
         vec![],
         vec![("the lower threshold is the larger", sign.above().at_most(sign.below()))],
@@ -484,7 +482,7 @@ fn last<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [below, above, square] = r.each(["below", "above", "ρ²"]);
     let computed = z * (1.0 + delta);
     let added = u * (square + below);
-    claim(
+    follows(
         vec![
             ("the rounding is within u", delta.within(u)),
             ("D is of a hit", r.all(&[r.not_negative([d]), d.at_most(square)])),
@@ -512,7 +510,7 @@ fn last_of_miss<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B
     let [u, delta, z] = r.each(["u", "δ", "z"]);
     let [below, above, square] = r.each(["below", "above", "ρ²"]);
     let one = r.number(1.0);
-    claim(
+    follows(
         vec![
             ("the rounding is within u, below 1", r.all(&[delta.within(u), u.below(one)])),
             ("z is at most the upper threshold", z.at_most(above)),
@@ -540,7 +538,7 @@ fn forms<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
         (gamma + 1.0) * p.square(),
     ];
     let form = |of: [Real<M>; 3]| of[0] * radius.square() + of[1] * radius * m + of[2] * m.square();
-    claim(
+    follows(
         vec![],
         vec![],
         vec![
@@ -555,7 +553,7 @@ fn foot<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let (s, e, radius) = (r.each(["y", "z"]), r.each(["e Y", "e Z"]), r.get("r"));
     let (a, n) = (length(s), s[0] * e[0] + s[1] * e[1]);
     let size = e[0].square() + e[1].square();
-    claim(
+    follows(
         vec![
             ("the ray hits", size.at_most(a * radius.square())),
             ("r is positive", r.not_negative([radius])),
@@ -575,7 +573,7 @@ fn slopes<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let s = r.each(["y", "z"]);
     let a = length(s);
     let w = r.get("√(y² + z²)");
-    claim(
+    follows(
         vec![],
         vec![],
         vec![
@@ -589,7 +587,7 @@ fn across<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let (s, e, radius) = (r.each(["|y|", "|z|"]), r.each(["|e Y|", "|e Z|"]), r.get("r"));
     let (a, n) = (length(s), s[0] * e[0] + s[1] * e[1]);
     let size = e[0].square() + e[1].square();
-    claim(
+    follows(
         vec![
             ("the ray hits", size.at_most(a * radius.square())),
             ("slopes are at most 1", r.within(s, r.number(1.0))),
@@ -614,7 +612,7 @@ fn across<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 
 fn inverse<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [u, beta, b, delta, i] = r.each(["u", "β", "of a", "δ", "a of the inverse"]);
-    claim(
+    follows(
         vec![
             ("a is off by at most β, below 1", r.all(&[b.within(beta), beta.below(r.number(1.0))])),
             ("the quotient has one rounding", delta.within(u)),
@@ -630,7 +628,7 @@ fn inverse<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 /// A term of the sum: k is (K + u) m.
 fn term<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [e, computed, off, k, two, three] = r.each(["e", "ê", "g", "k", "γ2", "γ3"]);
-    claim(
+    follows(
         vec![
             ("ê is off by that", (computed - e).within(two * e.size() + k)),
             ("the product has three roundings", off.within(three)),
@@ -647,7 +645,7 @@ fn term<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 
 fn offset<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [n, computed, off, d, tau, radius] = r.each(["N / a", "N̂ / a", "of 1/a", "d", "τ − 1", "r"]);
-    claim(
+    follows(
         vec![
             ("the sum is off by at most d", (computed - n).within(d)),
             ("of a hit it is at most r", n.within(radius)),
@@ -666,7 +664,7 @@ fn offset<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn sum<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [u, c, m, of_c] = r.each(["u", "c A", "m", "δ1"]);
     let [offset, computed, d] = r.each(["h − c A", "offset", "d"]);
-    claim(
+    follows(
         vec![
             ("c A is at most m", c.within(m)),
             ("it is rounded once", of_c.within(u)),
@@ -681,7 +679,7 @@ fn sum<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 
 fn middle<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [u, h, sum, d, size, last] = r.each(["u", "end", "w", "d", "m + r", "δ2"]);
-    claim(
+    follows(
         vec![
             ("the sum is off by at most d", (sum - h).within(d)),
             ("h is at most m + r", h.within(size)),
@@ -698,7 +696,7 @@ fn middle<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn chord<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [a, d, radius, added, half] = r.each(["a", "D", "r", "√ of what is added", "√ of both"]);
     let one = r.number(1.0);
-    claim(
+    follows(
         vec![
             ("a is at least 1", one.at_most(a)),
             ("D is at most a r²", d.at_most(a * radius.square())),
@@ -726,7 +724,7 @@ fn chord<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn added<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [d, computed, below, above] = r.each(["D", "D̂", "below", "above"]);
     let zero = r.number(0.0);
-    claim(
+    follows(
         vec![
             ("D is not computed too low", (-below).at_most(computed - d)),
             ("nor too high", (computed - d).at_most(above)),
@@ -743,7 +741,7 @@ fn added<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 
 fn half_rounding<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [u, delta, root] = r.each(["u", "δ", "√(1 + δ)"]);
-    claim(
+    follows(
         vec![
             ("δ is within u", delta.within(u)),
             ("a root is not negative", r.all(&[r.not_negative([root]), root.square().equals(1.0 + delta)])),
@@ -759,7 +757,7 @@ fn roots<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [a, b, c] = r.each(["√A", "√B", "√C"]);
     let form = (a * radius).square() + b.square() * radius * m + (c * m).square();
     let sum = a * radius + b * (radius + m) / 2.0 + c * m;
-    claim(
+    follows(
         vec![("all are not negative", r.not_negative([radius, m, a, b, c]))],
         vec![
             ("r m is at most ((r + m) / 2)²", (4.0 * radius * m).at_most((radius + m).square())),
@@ -806,7 +804,7 @@ fn end<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> (End<M>, Vec<(&'static 
 fn lower_end<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let (End { u, own, d, w, z, root, delta }, assume) = end(r);
     let x = w * (1.0 + delta[0]);
-    claim(
+    follows(
         assume,
         vec![
             ("the sum's rounding is at most u z", (w * delta[0]).within(u * z)),
@@ -825,7 +823,7 @@ fn lower_end<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn upper_end<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let (End { u, own, d, w, z, root, delta }, assume) = end(r);
     let x = w * (1.0 + delta[0]);
-    claim(
+    follows(
         assume,
         vec![
             ("the sum's rounding is at most u z", (w * delta[0]).within(u * z)),

@@ -128,7 +128,7 @@ impl<M: Machine> Real<M> {
     pub(super) fn power(self, n: u32) -> Self {
         (1..n).fold(self, |product, _| product * self)
     }
-    /// x² .
+    /// x².
     pub(super) fn square(self) -> Self {
         self * self
     }

@@ -11,7 +11,7 @@
 
 use super::real::{
     HALF, MINUS_ONE, MINUS_TWO, ONE, QUARTER, Real, Reals, SEVEN_SIXTEENTHS, SIXTEENTH, SMALL, SMALLER,
-    THREE, TINY, TWO, ZERO, follows as claim, lemma, step,
+    THREE, TINY, TWO, ZERO, follows, lemma, step,
 };
 use crate::prove::theorem::{Ask, Lemma, Statement};
 use optimized::machine::Machine;
@@ -29,7 +29,7 @@ fn gamma<M: Machine>(v: Real<M>, k: u32) -> Real<M> {
 /// If k roundings are within g, one more is within (1 + g)(1 + v) − 1.
 fn one_more<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, limit, off, delta] = r.each(["v", "g", "off", "δ"]);
-    claim(
+    follows(
         vec![("k roundings are within g", off.within(limit)), ("one is within v", delta.within(v))],
         vec![],
         vec![("all are", ((1.0 + off) * (1.0 + delta) - 1.0).within((1.0 + limit) * (1.0 + v) - 1.0))],
@@ -40,7 +40,7 @@ fn one_more<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn one_back<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, c, ratio, delta] = r.each(["v", "c", "true by computed", "δ"]);
     let one = r.number(1.0);
-    claim(
+    follows(
         vec![
             ("after k roundings the true is within c − 1 of the computed", {
                 (ratio * (1.0 + delta) - 1.0).within(c - 1.0)
@@ -54,11 +54,11 @@ fn one_back<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     )
 }
 
-/// Step 1, and the same of three terms.
+/// Step 1.
 fn component<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [x, y, g, h, limit] = r.each(["fy dz", "fz dy", "g", "h", "γ3"]);
     let computed = x * (1.0 + g) - y * (1.0 + h);
-    claim(
+    follows(
         vec![("each term is off by at most γ3", r.within([g, h], limit))],
         vec![],
         vec![("so is the difference, of both terms", {
@@ -68,9 +68,9 @@ fn component<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 }
 
 /// f, d and the magnitudes of their products.
-fn vectors<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> ([Real<M>; 3], [Real<M>; 3], [Real<M>; 3]) {
+fn vectors<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> [[Real<M>; 3]; 3] {
     let (f, d) = (r.each(["f x", "f y", "f z"]), r.each(["d x", "d y", "d z"]));
-    (f, d, [f[0] * d[0], f[1] * d[1], f[2] * d[2]])
+    [f, d, [f[0] * d[0], f[1] * d[1], f[2] * d[2]]]
 }
 
 fn sum<M: Machine>([x, y, z]: [Real<M>; 3]) -> Real<M> {
@@ -87,10 +87,10 @@ fn mixed<M: Machine>([x, y, z]: [Real<M>; 3]) -> Real<M> {
 
 /// Step 2: the squared length of the vector of sums.
 fn lengths<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
-    let (f, d, x) = vectors(r);
+    let [f, d, x] = vectors(r);
     let sums =
         [f[1] * d[2] + f[2] * d[1], f[2] * d[0] + f[0] * d[2], f[0] * d[1] + f[1] * d[0]].map(Real::square);
-    claim(
+    follows(
         vec![],
         vec![],
         vec![("it is F² n² − (Σ x)² + 4 Σ x x", {
@@ -101,15 +101,15 @@ fn lengths<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 
 fn products<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let x = r.each(["x", "y", "z"]);
-    claim(vec![], vec![], vec![("3 Σ x x is at most (Σ x)²", (3.0 * mixed(x)).at_most(sum(x).square()))])
+    follows(vec![], vec![], vec![("3 Σ x x is at most (Σ x)²", (3.0 * mixed(x)).at_most(sum(x).square()))])
 }
 
 /// Cauchy and Schwarz, in three dimensions.
 fn cauchy<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
-    let (f, d, x) = vectors(r);
+    let [f, d, x] = vectors(r);
     let cross = [f[1] * d[2] - f[2] * d[1], f[2] * d[0] - f[0] * d[2], f[0] * d[1] - f[1] * d[0]];
     let rest = square(f) * square(d) - sum(x).square();
-    claim(
+    follows(
         vec![],
         vec![("what is left is the cross product's square (Lagrange)", rest.equals(square(cross)))],
         vec![("(f·d)² is at most F² n²", r.number(0.0).at_most(rest))],
@@ -119,7 +119,7 @@ fn cauchy<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn cross<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = r.get("v");
     let p = r.ratio(348.0, 100.0) * v;
-    claim(
+    follows(
         vec![("v is in range", r.in_unit(v, 256.0))],
         vec![],
         vec![("4/3 γ3² is at most (3.48 v)²", { (4.0 * gamma(v, 3).square()).at_most(3.0 * p.square()) })],
@@ -130,7 +130,7 @@ fn cross<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn squares<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [long, off, p, k] = r.each(["|ŵ|", "|ŵ − w|", "p", "ŵ·(ŵ − w)"]);
     let true_square = long.square() - 2.0 * k + off.square();
-    claim(
+    follows(
         vec![
             ("|ŵ| is a length", r.not_negative([long])),
             ("|ŵ − w| is one, and at most p", r.all(&[r.not_negative([off]), off.at_most(p)])),
@@ -149,7 +149,7 @@ fn discriminant<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B
     let [computed, own] = r.each(["A", "a r²"]);
     let [w_computed, w_own, w] = r.each(["W", "|ŵ|²", "|w|²"]);
     let both = computed + w_computed;
-    claim(
+    follows(
         vec![
             ("A and W are squares", r.not_negative([computed, w_computed])),
             ("A has three roundings", (own - computed).within(g * computed)),
@@ -167,7 +167,7 @@ fn discriminant<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B
 /// Step 5: squares in order have roots in order; c is (1 − v)⁴, or (1 − v)^(3/2).
 fn lengths_in_order<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [long, computed, c] = r.each(["length", "root of the computed", "c"]);
-    claim(
+    follows(
         vec![
             ("lengths are not negative, nor is c", r.not_negative([long, computed, c])),
             ("c² of the true square is at most the computed", {
@@ -183,7 +183,7 @@ fn lengths_in_order<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<
 fn first_term<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, h, long, short, computed, more] = r.each(["v", "h", "F n", "|ŵ|", "√(G W)", "M"]);
     let (zero, seven) = (r.number(0.0), r.ratio(696.0, 100.0));
-    claim(
+    follows(
         vec![
             ("v and h are positive", r.all(&[zero.below(v), zero.below(h)])),
             ("step 5 holds of both", (long * short * h).at_most(computed)),
@@ -200,7 +200,7 @@ fn first_term<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> 
 
 fn slack_a<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = r.get("v");
-    claim(
+    follows(
         vec![("v is in range", r.in_unit(v, 256.0))],
         vec![],
         vec![("6.96 is at most 7 M (1 − v)¹¹", {
@@ -212,7 +212,7 @@ fn slack_a<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn slack_b<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = r.get("v");
     let d = 1.0 - v;
-    claim(
+    follows(
         vec![("v is in range", r.in_unit(v, 256.0))],
         vec![],
         vec![("1 − (1 − v)³ + v (1 − v)³ is at most 5 M v (1 − v)⁸", {
@@ -224,7 +224,7 @@ fn slack_b<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn slack_c<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = r.get("v");
     let (p, square) = (r.ratio(348.0, 100.0), r.ratio(1212.0, 100.0));
-    claim(
+    follows(
         vec![("v is in range", r.in_unit(v, 256.0))],
         vec![],
         vec![
@@ -237,7 +237,7 @@ fn slack_c<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 /// Step 7: g is (1 − v)⁻⁵ − 1.
 fn eye_square<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, g, delta, computed, own, rr] = r.each(["v", "g", "δ", "F̂²", "F²", "r²"]);
-    claim(
+    follows(
         vec![
             ("F̂² and r² are squares", r.not_negative([computed, rr])),
             ("F² has five roundings", (own - computed).within(g * computed)),
@@ -255,7 +255,7 @@ fn eye_square<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> 
 fn eye_slack<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = r.get("v");
     let d = 1.0 - v;
-    claim(
+    follows(
         vec![("v is in range", r.in_unit(v, 256.0))],
         vec![],
         vec![
@@ -272,7 +272,7 @@ fn along<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [x, y, z, limit] = r.each(["x", "y", "z", "γ4"]);
     let off = r.each(["g", "h", "k"]);
     let computed = x * (1.0 + off[0]) + y * (1.0 + off[1]) + z * (1.0 + off[2]);
-    claim(
+    follows(
         vec![("each term is off by at most γ4", r.within(off, limit))],
         vec![
             ("the first by γ4 |x|", (x * off[0]).within(limit * x.size())),
@@ -287,7 +287,7 @@ fn along<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 
 fn along_slack<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = r.get("v");
-    claim(
+    follows(
         vec![("v is in range", r.in_unit(v, 256.0))],
         vec![],
         vec![("γ4 is at most 4 M v (1 − v)⁶", {
@@ -300,7 +300,7 @@ fn along_slack<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
 fn sign<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [computed, own, slack] = r.each(["computed", "true", "slack"]);
     let zero = r.number(0.0);
-    claim(
+    follows(
         vec![("it is off by at most its slack", (computed - own).within(slack))],
         vec![],
         vec![
@@ -318,7 +318,7 @@ fn distance<M: Machine>([a, b, q]: [Real<M>; 3], t: Real<M>) -> Real<M> {
 fn no_line<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [a, b, q, t] = r.each(["a", "b", "q", "t"]);
     let zero = r.number(0.0);
-    claim(
+    follows(
         vec![("D is negative", (b.square() - a * q).below(zero)), ("a is a length's square", zero.below(a))],
         vec![("a times it is (a t + b)² − D", {
             (a * distance([a, b, q], t)).equals((a * t + b).square() - (b.square() - a * q))
@@ -330,7 +330,7 @@ fn no_line<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn behind<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [a, b, q, t] = r.each(["a", "b", "q", "t"]);
     let zero = r.number(0.0);
-    claim(
+    follows(
         vec![
             ("the eye is outside", zero.below(q)),
             ("b is positive", zero.below(b)),
@@ -346,7 +346,7 @@ fn outside<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [a, b, q, s, t, before] = r.each(["a", "b", "q", "S", "t", "s"]);
     let zero = r.number(0.0);
     let far = s - b;
-    claim(
+    follows(
         vec![
             ("the eye is outside, and b negative", r.all(&[zero.below(q), b.below(zero)])),
             ("a is positive", zero.below(a)),
@@ -375,7 +375,7 @@ fn outside<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn inside<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [a, b, q, s, t, before] = r.each(["a", "b", "q", "S", "t", "s"]);
     let zero = r.number(0.0);
-    claim(
+    follows(
         vec![
             ("the eye is inside", q.below(zero)),
             ("a is positive", zero.below(a)),
@@ -405,7 +405,7 @@ fn inside<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn half_way<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [x, z] = r.each(["x", "z"]);
     let (zero, one) = (r.number(0.0), r.number(1.0));
-    claim(
+    follows(
         vec![
             ("x is 2 z − z²", x.equals(2.0 * z - z.square())),
             ("x is below 1/2", x.below(r.ratio(1.0, 2.0))),
@@ -421,7 +421,7 @@ fn roots<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [own, computed, z] = r.each(["√D", "√D̂", "z"]);
     let zero = r.number(0.0);
     let x = 2.0 * z - z.square();
-    claim(
+    follows(
         vec![
             ("√D is not negative", zero.at_most(own)),
             ("nor is √D̂, and D̂ is off by at most x of itself", {
@@ -442,7 +442,7 @@ fn sums<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [s, root, computed_s] = r.each(["S", "√D̂", "ŝ"]);
     let (zero, one) = (r.number(0.0), r.number(1.0));
     let (own, computed) = (s - b, computed_b.size() + computed_s);
-    claim(
+    follows(
         vec![
             ("b̂ is not positive", computed_b.at_most(zero)),
             ("b is off by at most β", (b - computed_b).within(beta)),
@@ -467,7 +467,7 @@ fn sums<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 /// Step 12.
 fn eleven<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = r.get("v");
-    claim(
+    follows(
         vec![("v is in range", r.in_unit(v, 256.0))],
         vec![],
         vec![("1 + 27 v is at most M (1 − v)¹¹", {
@@ -505,7 +505,7 @@ fn terms<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Terms<M> {
 /// Step 13, upper end: c in terms of the error.
 fn share<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let Terms { v, c, rest, ranges } = terms(r);
-    claim(
+    follows(
         vec![("v, z, y and β/σ are in range", ranges)],
         vec![],
         vec![
@@ -520,7 +520,7 @@ fn quotient_above<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M:
     let [v, c, rest, own] = r.each(["v", "c (1 − v)", "e₀ − ε", "ε"]);
     let d = 1.0 - v;
     let e = (1.0 + 27.0 * v) * (own + rest);
-    claim(
+    follows(
         vec![
             ("v is in range", r.in_unit(v, 256.0)),
             ("ε is not negative", r.not_negative([own])),
@@ -540,7 +540,7 @@ fn quotient_below<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M:
     let Terms { v, c, rest, ranges } = terms(r);
     let own = r.get("ε");
     let (d, e) = (1.0 - v, (1.0 + 27.0 * v) * (own + rest));
-    claim(
+    follows(
         vec![("v, z, y and β/σ are in range", ranges), ("ε is not negative", r.not_negative([own]))],
         vec![],
         vec![("(1 − e)(1 + c)(1 + v)³ is at most (1 − ε)(1 − v)", {
@@ -556,7 +556,7 @@ fn quotient_hi<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
     let [computed_sum, computed_t, hi] = r.each(["σ", "t̂", "hi"]);
     let (zero, one) = (r.number(0.0), r.number(1.0));
     let (d, s) = (1.0 - v, 1.0 + v);
-    claim(
+    follows(
         vec![
             ("v, e and c are in range", r.all(&[r.not_negative([v, e]), v.below(one), c.below(one)])),
             ("q is at most 1 + ε", q.at_most(1.0 + own)),
@@ -586,7 +586,7 @@ fn quotient_lo<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
     let [computed_sum, computed_t, lo] = r.each(["σ", "t̂", "lo"]);
     let (zero, one) = (r.number(0.0), r.number(1.0));
     let (d, s) = (1.0 - v, 1.0 + v);
-    claim(
+    follows(
         vec![
             ("v, e and c are in range", { r.all(&[r.not_negative([v, c]), v.below(one), e.at_most(one)]) }),
             ("q is at least 1 − ε", (1.0 - own).at_most(q)),
@@ -613,7 +613,7 @@ fn sum_above<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let Terms { v, c, rest, ranges } = terms(r);
     let d = 1.0 - v;
     let e = (1.0 + 27.0 * v) * (3.0 * v + rest);
-    claim(
+    follows(
         vec![("v, z, y and β/σ are in range", ranges)],
         vec![],
         vec![("(1 + c)(1 + v)² is at most (1 + e)(1 − v)⁴", {
@@ -626,7 +626,7 @@ fn sum_below<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let Terms { v, c, rest, ranges } = terms(r);
     let d = 1.0 - v;
     let e = (1.0 + 27.0 * v) * (3.0 * v + rest);
-    claim(
+    follows(
         vec![("v, z, y and β/σ are in range", ranges)],
         vec![],
         vec![("(1 − e)(1 + v)⁴ is at most (1 − c)(1 − v)²", {
@@ -639,7 +639,7 @@ fn sum_below<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn sum_hi<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, c, e, t, computed, hi] = r.each(["v", "c", "e", "t", "t̂", "hi"]);
     let (d, s) = (1.0 - v, 1.0 + v);
-    claim(
+    follows(
         vec![
             ("v and e are in range", r.all(&[r.not_negative([v, e]), v.below(r.number(1.0))])),
             ("Σ is at most 1 + c", t.at_most(1.0 + c)),
@@ -655,7 +655,7 @@ fn sum_hi<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn sum_lo<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, c, e, t, computed, lo] = r.each(["v", "c", "e", "t", "t̂", "lo"]);
     let (d, s, one) = (1.0 - v, 1.0 + v, r.number(1.0));
-    claim(
+    follows(
         vec![
             ("v and e are in range", r.all(&[r.not_negative([v]), v.below(one), e.at_most(one)])),
             ("Σ is at least 1 − c", (1.0 - c).at_most(t)),
@@ -671,7 +671,7 @@ fn sum_lo<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 /// Short way, step 1: q and b.
 fn short_parts<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = r.get("v");
-    claim(
+    follows(
         vec![("v is in range", r.in_unit(v, 4096.0))],
         vec![],
         vec![
@@ -687,7 +687,7 @@ fn short_parts<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
 fn short_eye<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, limit, off, delta, rr] = r.each(["v", "γ5", "g", "δ", "r²"]);
     let (computed, one) = (1.0 + off, r.number(1.0));
-    claim(
+    follows(
         vec![
             ("F² has five roundings", off.within(limit)),
             ("the difference has one", delta.within(v)),
@@ -706,7 +706,7 @@ fn short_eye<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
 fn short_sum<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let v = r.get("v");
     let (b, q) = ((1.0 + v).power(9), (1.0 + v).power(3) * (1.0 + r.ratio(601.0, 100.0) * v));
-    claim(
+    follows(
         vec![("v is in range", r.in_unit(v, 4096.0))],
         vec![],
         vec![("all three are at most 20 v", { (b - 1.0 + q - 1.0 + v * b.or_more(q)).at_most(20.0 * v) })],
@@ -721,7 +721,7 @@ fn short_difference<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<
     let (zero, one) = (r.number(0.0), r.number(1.0));
     let larger = 1.0 + of_b.or_more(of_q);
     let computed = computed_bb - computed_aq;
-    claim(
+    follows(
         vec![
             ("b² and a q are at most a F²", r.all(&[bb.at_most(one), aq.at_most(one)])),
             ("b² is off by that", (computed_bb - bb).within(of_b)),
@@ -743,7 +743,7 @@ fn short_difference<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<
 fn short_said<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, e, h, g, far] = r.each(["v", "e", "√κ", "g", "F/r"]);
     let (zero, one) = (r.number(0.0), r.number(1.0));
-    claim(
+    follows(
         vec![
             ("e is below √(2 v)", r.all(&[zero.at_most(e), e.square().below(2.0 * v)])),
             ("e is said as it is", (v * g * 20.0 * far).at_most(e * h)),
@@ -763,7 +763,7 @@ fn short_said<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> 
 fn short_sign<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, own, computed, k, off] = r.each(["v", "D", "D̂", "K", "E"]);
     let zero = r.number(0.0);
-    claim(
+    follows(
         vec![
             ("v is in range", r.in_unit(v, 4096.0)),
             ("step 3 holds", (10.0 * off).below(k)),
@@ -784,7 +784,7 @@ fn short_sign<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> 
 fn short_ahead<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, b, computed, h] = r.each(["v", "b", "b̂", "√g"]);
     let (zero, two) = (r.number(0.0), r.ratio(201.0, 100.0));
-    claim(
+    follows(
         vec![
             ("v is in range", r.in_unit(v, 4096.0)),
             ("√g is positive, and g at most 2.01", r.all(&[zero.below(h), h.square().at_most(two)])),
@@ -801,7 +801,7 @@ fn short_ahead<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
 fn short_roots<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, q, w] = r.each(["v", "√(1 − 1/9.9)", "√(1 − v)³"]);
     let (least, tenth) = (r.ratio(89.0, 10.0), r.ratio(99.0, 10.0));
-    claim(
+    follows(
         vec![
             ("v is in range", r.in_unit(v, 4096.0)),
             ("one root is at least that", {
@@ -821,7 +821,7 @@ fn short_roots<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
 /// Step 5: a difference of squares, by the sum.
 fn short_apart<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [own, computed, sum, off] = r.each(["√D", "√D̂", "sum", "E"]);
-    claim(
+    follows(
         vec![
             ("the roots are together at least that", sum.at_most(own + computed)),
             ("which is positive", r.number(0.0).below(sum)),
@@ -839,7 +839,7 @@ fn short_total<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
     let [of_b, of_d] = [r.ratio(401.0, 100.0), 20.0 / r.ratio(194.0, 100.0)];
     let c = v * (of_b * h + r.ratio(104.0, 10.0) * h * m + r.ratio(11.0, 10.0));
     let one = r.number(1.0);
-    claim(
+    follows(
         vec![
             ("v is in range", r.in_unit(v, 4096.0)),
             ("b is at most −√(a q), and S not negative", {
@@ -892,7 +892,7 @@ fn short_terms<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Short<M> {
 fn short_above<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let Short { v, c, q, e, assume } = short_terms(r);
     let d = 1.0 - v;
-    claim(
+    follows(
         assume,
         vec![],
         vec![("(1 + c)(1 + v) is at most (1 − 6.01 v g)(1 − v)²(1 + e (1 − v))", {
@@ -904,7 +904,7 @@ fn short_above<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B>
 fn short_below<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let Short { v, c, q, e, assume } = short_terms(r);
     let d = 1.0 - v;
-    claim(
+    follows(
         assume,
         vec![],
         vec![("(1 + 6.01 v g)(1 + v)²(1 − e (1 − v)) is at most (1 − c)(1 − v)", {
@@ -918,7 +918,7 @@ fn short_hi<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, c, q, e] = r.each(["v", "c", "ε", "e"]);
     let [t, computed_t, hi] = r.each(["t", "t̂", "hi"]);
     let (d, s) = (1.0 - v, 1.0 + v);
-    claim(
+    follows(
         vec![
             ("v, c and e are in range", r.all(&[r.not_negative([v, c, e]), v.below(r.number(1.0))])),
             ("t is positive", r.not_negative([t])),
@@ -940,7 +940,7 @@ fn short_lo<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, c, q, e] = r.each(["v", "c", "ε", "e"]);
     let [t, computed_t, lo] = r.each(["t", "t̂", "lo"]);
     let (d, s, one) = (1.0 - v, 1.0 + v, r.number(1.0));
-    claim(
+    follows(
         vec![
             ("v, c and e are in range", {
                 r.all(&[r.not_negative([v]), v.below(one), c.below(one), (e * d).at_most(one)])
