@@ -211,7 +211,15 @@ impl Theorem for What {
                 ("the point lies in the interval", m.and(m.le(found.lo, at), m.le(at, found.hi))),
             ],
         };
-        Statement { steps: Vec::new(), assume, conclude }
+        let mut steps = Vec::new();
+        if let Self::Far = self {
+            let beyond = m.sub(m.mul(at, a), along);
+            steps.push(("half the chord reaches from its middle to the point", {
+                same(m, discriminant, m.mul(beyond, beyond))
+            }));
+            steps.push(("the point is beyond the middle", m.le(zero, beyond)));
+        }
+        Statement { steps, assume, conclude }
     }
 }
 
