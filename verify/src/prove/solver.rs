@@ -37,26 +37,30 @@ pub enum Reply {
 const KNOWN: [&str; 3] = ["bitwuzla", "z3", "cvc5"];
 
 impl Solver {
-    /// Those that are there: in the folder that [`VARIABLE`] names, on the path, or among the fetched data.
+    /// Those that are there: in the folder that [`VARIABLE`] names, among the fetched data, whose versions are pinned, or on the path.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let mut folders: Vec<PathBuf> = std::env::var_os(VARIABLE).map(PathBuf::from).into_iter().collect();
-        folders.extend(std::env::var_os("PATH").iter().flat_map(std::env::split_paths));
         folders.push(catalogue::folder().join("solvers"));
-        let find = |name: &'static str| {
-            let program = folders.iter().map(|folder| folder.join(name)).find(|file| file.is_file())?;
-            let said = Command::new(&program).arg("--version").stdin(Stdio::null()).output().ok()?;
-            if !said.status.success() {
-                return None;
-            }
-            let said = String::from_utf8_lossy(&said.stdout);
-            // Its name apart, what begins with a digit.
-            let version =
-                said.split_whitespace().find(|word| word.starts_with(|c: char| c.is_ascii_digit()))?;
-            let version = version.to_owned();
-            Some(Self { name, version, program })
-        };
+        folders.extend(std::env::var_os("PATH").iter().flat_map(std::env::split_paths));
+        // The first of that name that runs.
+        let find = |name: &'static str| folders.iter().find_map(|folder| Self::at(name, folder.join(name)));
         KNOWN.into_iter().filter_map(find).collect()
+    }
+
+    /// The program of that file, if it runs and says its version.
+    fn at(name: &'static str, program: PathBuf) -> Option<Self> {
+        if !program.is_file() {
+            return None;
+        }
+        let said = Command::new(&program).arg("--version").stdin(Stdio::null()).output().ok()?;
+        if !said.status.success() {
+            return None;
+        }
+        // Its name apart, what begins with a digit.
+        let text = String::from_utf8_lossy(&said.stdout);
+        let version = text.split_whitespace().find(|word| word.starts_with(|c: char| c.is_ascii_digit()))?;
+        Some(Self { name, version: version.to_owned(), program })
     }
 
     /// One of those that are known, somewhere else.
