@@ -1,7 +1,7 @@
 //! Claim: the mended flattened loop visits the cells of the nested loops, in their order, and ends; the loop as printed does so if and
 //! only if all slices have one and the same rectangle of cells, which is one cell wide on an axis.
 //!
-//! The shipped [`step`] is held against the successor of a cell in the nested loops, said with branches ([`nested`]), at 32 bits and
+//! The shipped [`step`] is held against the successor of a cell in the nested loops, said with branches (`nested`), at 32 bits and
 //! for every rectangle of every slice. From a cell of a slice the two agree (`walk.successor`); from a slice without cells the
 //! step goes to the first cell of the next (`walk.empty`), whose visit is not live. So by induction over the steps the live cells
 //! are those of the nested loops in their order. Each step goes forward and stays within the rectangle (`walk.forward`), and a
