@@ -86,8 +86,8 @@ const OPERATIONS: [Operation; 33] = [
 ];
 
 /// Operations with tests of their own; `spu` in `spu_machine.rs`.
-const OTHERS: [&str; 9] =
-    ["within", "spu", "stage", "branch", "beside", "lanes_of_four", "any", "again", "to_bits"];
+const OTHERS: [&str; 10] =
+    ["within", "spu", "unit", "stage", "branch", "beside", "lanes_of_four", "any", "again", "to_bits"];
 
 fn f(bits: u32) -> f64 {
     f32::from_bits(bits).into()
@@ -558,6 +558,48 @@ fn subnormal_numbers_are_numbers() {
     }
 }
 
+/// One and the unit; one and the number after it; and of the SPU's machine beside it the unit and the worst error of its quotients and
+/// roots, relative.
+struct Units([Lanes; 2]);
+
+impl Work for Units {
+    type Output = ([f32; 2], [f64; 2]);
+
+    fn on<M: Machine + Send + Sync>(self, m: M) -> Self::Output {
+        let unit = m.unit();
+        let sums = [unit, unit.next_up()].map(|x| [x.to_bits(); LANES]);
+        let one = [1.0f32.to_bits(); LANES];
+        let sums = sums.map(|x| f32::from_bits(apply(m, "add", &[one, x])[0]));
+        let s = m.spu();
+        let [x, y] = self.0;
+        let (quotient, root) = (apply(s, "div", &[x, y]), apply(s, "sqrt", &[x]));
+        let off = |found: u32, real: f64| ((f64::from(f32::from_bits(found)) - real) / real).abs();
+        let mut worst = 0.0f64;
+        for lane in 0..LANES {
+            worst = worst.max(off(quotient[lane], f(x[lane]) / f(y[lane])));
+            worst = worst.max(off(root[lane], f(x[lane]).sqrt()));
+        }
+        (sums, [s.unit().into(), worst])
+    }
+}
+
+/// The unit is half the distance from one to the next number; on the SPU, what a quotient or a root is off by, and less than four times that.
+#[test]
+fn the_unit_is_what_an_operation_is_off_by() {
+    let (seed, mut worst) = (seed(), 0.0f64);
+    let mut rng = generator(seed, 9);
+    for level in Level::available() {
+        for _ in 0..2_000 {
+            let numbers = [(); 2].map(|()| std::array::from_fn(|_| rng.random_range(1.0f32..4.0).to_bits()));
+            let (sums, [unit, off]) = level.run(Units(numbers));
+            assert_eq!(sums, [1.0, 1.0f32.next_up()], "{level}");
+            assert!(off <= unit, "{level}: {off} above {unit}: {numbers:x?}, CGT_SEED={seed}");
+            worst = worst.max(off / unit);
+        }
+    }
+    assert!(worst > 0.25, "the SPU's unit is more than four times what was found: {worst}, CGT_SEED={seed}");
+}
+
 /// The names of the trait's operations, from its source.
 fn operations_of_the_trait() -> Vec<&'static str> {
     let source = include_str!("../optimized/src/machine.rs");
@@ -574,7 +616,7 @@ fn every_operation_has_a_test() {
     tested.sort_unstable();
     there.sort_unstable();
     assert_eq!(tested, there, "tested, and there to be tested");
-    assert_eq!(there.len(), 42, "the count in this test is the one thing to change after a new test");
+    assert_eq!(there.len(), 43, "the count in this test is the one thing to change after a new test");
 }
 
 #[test]
