@@ -54,7 +54,7 @@ pub struct Faults {
     pub noticed: usize,
     /// Those that change nothing, as is stated.
     pub harmless: usize,
-    /// Those of which no solver could tell in time.
+    /// Those of which nothing is known, with the reason: no solver could tell in time, or no counterexample fails on the scalar machine.
     pub open: Vec<String>,
     /// Seconds that it took.
     pub seconds: f64,
@@ -179,7 +179,7 @@ pub fn break_each(lemmas: &[&Lemma], solvers: &[Solver], effort: &Effort, rng: &
         left.swap_remove(rng.random_range(0..left.len()));
     }
     faults.tried = left.len();
-    let mut open: Vec<Wrong> = Vec::new();
+    let mut open: Vec<(Wrong, String)> = Vec::new();
     let mut noticed: Vec<Wrong> = Vec::new();
     for lemma in lemmas {
         let known = lemma.solvers(solvers);
@@ -201,8 +201,8 @@ pub fn break_each(lemmas: &[&Lemma], solvers: &[Solver], effort: &Effort, rng: &
                     }
                 }
                 (Found::Nothing, true) => left.push(wrong),
-                (Found::Unknown(_), true) => {
-                    open.push(wrong);
+                (Found::Unknown(why), true) => {
+                    open.push((wrong, why));
                     left.push(wrong);
                 }
                 (_, false) => {}
@@ -213,10 +213,10 @@ pub fn break_each(lemmas: &[&Lemma], solvers: &[Solver], effort: &Effort, rng: &
         }
     }
     for wrong in left {
-        match harmless(&wrong) {
-            _ if open.contains(&wrong) => faults.open.push(format!("{wrong:?}")),
-            Some(_) => faults.harmless += 1,
-            None => faults.wrong.push(format!("{wrong:?} is not noticed")),
+        match (open.iter().find(|(of, _)| *of == wrong), harmless(&wrong)) {
+            (Some((_, why)), _) => faults.open.push(format!("{wrong:?}: {why}")),
+            (None, Some(_)) => faults.harmless += 1,
+            (None, None) => faults.wrong.push(format!("{wrong:?} is not noticed")),
         }
     }
     faults.noticed = noticed.len();

@@ -188,7 +188,7 @@ impl std::fmt::Display for Proofs {
         }
         for Faults { kernel, open, .. } in &self.faults {
             for fault in open {
-                writeln!(f, "open: {kernel}: {fault}: no solver could tell in time")?;
+                writeln!(f, "open: {kernel}: {fault}")?;
             }
         }
         for name in &self.left_out {
