@@ -12,7 +12,7 @@ use verify::scenes::catalogue::{Data, ENTRIES};
 const NOT_RUN: [(&str, &str); 6] = [
     ("tests/run", "it is what runs this test"),
     ("tests/fetch-data", "it needs a network"),
-    ("tests/run --long", "it takes half an hour"),
+    ("tests/run --long", "it takes ten minutes"),
     (
         "tests/instructions",
         "it needs Valgrind; tests/instructions.rs runs its comparison on counts that are made up",
