@@ -13,7 +13,7 @@
 use super::broken::Fault;
 use super::smt::{Numbers, query};
 use super::solver::{Reply, Solver};
-use super::symbolic::{Answer, Lanes};
+use super::symbolic::{Answer, Lanes, Path};
 use super::term::{Node, Op, Sort, Term};
 use super::theorem::{Expected, Explored, Lemma, Statement, Wrong};
 use rand::{Rng, RngExt};
@@ -109,6 +109,7 @@ impl Effort {
 
 /// Inputs that are tried where the solver's counterexample is none of the scalar machine's.
 const TRIES: u64 = 20_000;
+
 /// What a solver found of a statement.
 enum Found {
     Nothing,
@@ -313,7 +314,7 @@ impl Lemma {
             }
             let found = match self.stepwise(explored, solver, limit) {
                 Err(why) => Found::Unknown(why),
-                Ok(()) => self.fails(explored, std::slice::from_ref(solver), None, self.lanes, limit),
+                Ok(()) => self.fails(explored, std::slice::from_ref(solver), None, true, self.lanes, limit),
             };
             let outcome = match found {
                 Found::Unknown(why) => Outcome::NotShown(why),
@@ -384,7 +385,10 @@ impl Lemma {
             Ok(explored) => explored,
             Err(why) => return Found::Unknown(why),
         };
-        match self.fails(&explored, solvers, left_out, lanes, effort.fault) {
+        // A step is used if it still follows.
+        let follows = |solver: &&Solver| self.stepwise(&explored, solver, effort.fault).is_ok();
+        let steps = left_out.is_none() && solvers.iter().any(follows);
+        match self.fails(&explored, solvers, left_out, steps, lanes, effort.fault) {
             Found::Inputs(values) if self.fails_for(&explored, &values, fault, left_out) => {
                 Found::Inputs(values)
             }
@@ -427,12 +431,13 @@ impl Lemma {
         explored.inputs.iter().map(&mut one).collect()
     }
 
-    /// Asks for inputs that meet the assumptions, but for one, and not the conclusion.
+    /// Asks for inputs that meet the assumptions, but for one, and the steps if they are given, and not the conclusion.
     fn fails(
         &self,
         explored: &Explored,
         solvers: &[&Solver],
         left_out: Option<usize>,
+        with_steps: bool,
         lanes: Lanes,
         limit: Duration,
     ) -> Found {
@@ -447,8 +452,7 @@ impl Lemma {
             }
             let kept = assume.iter().enumerate().filter(|(i, _)| Some(*i) != left_out);
             let mut given: Vec<(Term, bool)> = kept.map(|(_, (_, term))| (*term, true)).collect();
-            // Without an assumption a step may not follow any more.
-            if left_out.is_none() {
+            if with_steps {
                 given.extend(steps.iter().map(|(_, step)| (*step, true)));
             }
             for mut wanted in path.known(lanes) {
@@ -471,8 +475,14 @@ impl Lemma {
     /// Shows each step from the assumptions and the steps before it; says which cannot be shown.
     fn stepwise(&self, explored: &Explored, solver: &Solver, limit: Duration) -> Result<(), String> {
         let sorts: Vec<Sort> = explored.inputs.iter().map(|(_, sort)| *sort).collect();
-        // No step depends on the kernel, and so none on the path.
         let Statement { assume, steps, .. } = &explored.paths[0].result;
+        if !steps.is_empty() {
+            let same =
+                |path: &Path<Statement<Term>>| (&path.result.assume, &path.result.steps) == (assume, steps);
+            if !explored.paths.iter().all(same) {
+                return Err("a step depends on the path".into());
+            }
+        }
         let mut given: Vec<(Term, bool)> = assume.iter().map(|(_, term)| (*term, true)).collect();
         for (words, step) in steps {
             for lane in explored.terms.conjuncts(*step) {

@@ -130,12 +130,13 @@ impl Proofs {
             .collect()
     }
 
-    /// Lemmas of which no solver could tell in time, with the reason.
+    /// Lemmas of which no solver told, with the reason.
     #[must_use]
     pub fn not_shown(&self) -> Vec<String> {
         let why = |lemma: &Finding| match &lemma.outcome {
             Outcome::NotShown(why) => Some(format!("{}: {why}", lemma.name)),
-            _ => None,
+            Outcome::NotJudged => Some(format!("{}: there is no solver that knows such numbers", lemma.name)),
+            Outcome::Proved | Outcome::Refuted(_) => None,
         };
         self.lemmas.iter().filter_map(why).collect()
     }

@@ -225,7 +225,8 @@ impl Claim {
         let mut stems: Vec<&str> =
             self.lemmas.iter().map(|name| name.split('.').next().unwrap_or(name)).collect();
         stems.dedup();
-        format!("cargo run --release -- prove {}", stems.join(" "))
+        let long = lemmas().iter().any(|lemma| lemma.long && self.lemmas.contains(&lemma.name));
+        format!("cargo run --release -- prove {}{}", stems.join(" "), if long { " --long" } else { "" })
     }
 
     /// What stands beside it in the table: counted, not remembered.

@@ -25,7 +25,25 @@ fn sphere<M: Machine>(ask: &mut impl Ask<M>, names: [&'static str; 5]) -> Prepar
     Prepared { f: [x, y, z], rr, q, cull_radius: 0.0 }
 }
 
-/// Two spheres in either order, or one twice.
+/// A ray, as a packet knows it.
+fn ray<M: Machine, K: Machine<F = M::F, I = M::I, B = M::B>>(ask: &mut impl Ask<M>) -> Block<K> {
+    let dir = ["d x", "d y", "d z"].map(|name| ask.number(name));
+    Block { dir, inv_dd: ask.number("1/dd"), dd: ask.number("dd") }
+}
+
+/// What the certified stage knows of a ray so far.
+fn so_far<M: Machine, K: Machine<F = M::F, I = M::I, B = M::B>>(
+    ask: &mut impl Ask<M>,
+) -> certain::Nearest<K> {
+    certain::Nearest {
+        id: ask.integer("owner"),
+        lo: ask.number("lo"),
+        hi: ask.number("hi"),
+        rival: ask.number("rival"),
+    }
+}
+
+/// Two spheres in either order.
 struct Order {
     form: Form,
     ids: [i32; 2],
@@ -38,8 +56,7 @@ impl Theorem for Order {
         kernel: K,
         ask: &mut impl Ask<M>,
     ) -> Statement<M::B> {
-        let dir = ["d x", "d y", "d z"].map(|name| ask.number(name));
-        let block = Block::<K> { dir, inv_dd: ask.number("1/dd"), dd: ask.number("dd") };
+        let block = ray::<M, K>(ask);
         let one = sphere(ask, ["f x", "f y", "f z", "rr", "q"]);
         let other = sphere(ask, ["g x", "g y", "g z", "ss", "p"]);
         let (t, id) = (ask.number("t"), ask.integer("id"));
@@ -77,12 +94,11 @@ impl Theorem for Rule {
         ask: &mut impl Ask<M>,
     ) -> Statement<M::B> {
         const ID: i32 = 4;
-        let dir = ["d x", "d y", "d z"].map(|name| ask.number(name));
-        let block = Block::<K> { dir, inv_dd: ask.number("1/dd"), dd: ask.number("dd") };
+        let block = ray::<M, K>(ask);
         let sphere = sphere(ask, ["f x", "f y", "f z", "rr", "q"]);
         let start = Nearest::<K> { t: ask.number("t"), id: ask.integer("id") };
         let after = start.meet(kernel, self.form, &block, &sphere, ID);
-        let f = sphere.f.map(|x| m.splat(x));
+        let (f, dir) = (sphere.f.map(|x| m.splat(x)), block.dir);
         let along = m.add(m.add(m.mul(f[0], dir[0]), m.mul(f[1], dir[1])), m.mul(f[2], dir[2]));
         let (discriminant, middle, half) = match self.form {
             Form::Textbook => {
@@ -135,8 +151,7 @@ impl Theorem for Twice {
         kernel: K,
         ask: &mut impl Ask<M>,
     ) -> Statement<M::B> {
-        let dir = ["d x", "d y", "d z"].map(|name| ask.number(name));
-        let block = Block::<K> { dir, inv_dd: ask.number("1/dd"), dd: ask.number("dd") };
+        let block = ray::<M, K>(ask);
         let sphere = sphere(ask, ["f x", "f y", "f z", "rr", "q"]);
         let start = Nearest::<K> { t: ask.number("t"), id: ask.integer("id") };
         let once = start.meet(kernel, self.0, &block, &sphere, 3);
@@ -165,12 +180,7 @@ impl Theorem for Rival {
         kernel: K,
         ask: &mut impl Ask<M>,
     ) -> Statement<M::B> {
-        let before = certain::Nearest::<K> {
-            id: ask.integer("owner"),
-            lo: ask.number("lo"),
-            hi: ask.number("hi"),
-            rival: ask.number("rival"),
-        };
+        let before = so_far::<M, K>(ask);
         let zero = m.splat_i(0);
         let yes = |x: M::I| m.lt_i(zero, x);
         let (possible, certain) = (yes(ask.integer("possible")), yes(ask.integer("certain")));
@@ -180,15 +190,10 @@ impl Theorem for Rival {
         let after = before.meet(kernel, &found, id);
         let new = m.splat_i(id);
         let kept = same_i(m, after.id, before.id);
-        let unchanged = all(
-            m,
-            &[
-                kept,
-                same(m, after.lo, before.lo),
-                m.not(m.lt(before.hi, after.hi)),
-                same(m, after.rival, before.rival),
-            ],
-        );
+        // An upper end may be no number, which is neither above nor below another.
+        let apart = m.or(m.lt(before.hi, after.hi), m.lt(after.hi, before.hi));
+        let interval = m.and(same(m, after.lo, before.lo), m.not(apart));
+        let unchanged = all(m, &[kept, interval, same(m, after.rival, before.rival)]);
         let again = same_i(m, before.id, new);
         Statement {
             steps: Vec::new(),
@@ -215,10 +220,7 @@ impl Theorem for Rival {
                 ("an owner is replaced by one whose upper end is lower", {
                     implies(m, m.not(kept), m.lt(after.hi, before.hi))
                 }),
-                ("who stays owner keeps its interval", {
-                    let low = m.and(m.le(after.lo, before.lo), m.le(before.lo, after.lo));
-                    implies(m, m.and(kept, m.not(again)), low)
-                }),
+                ("who stays owner keeps its interval", implies(m, kept, interval)),
             ],
         }
     }
@@ -234,12 +236,7 @@ impl Theorem for Unmarked {
         kernel: K,
         ask: &mut impl Ask<M>,
     ) -> Statement<M::B> {
-        let nearest = certain::Nearest::<K> {
-            id: ask.integer("owner"),
-            lo: ask.number("lo"),
-            hi: ask.number("hi"),
-            rival: ask.number("rival"),
-        };
+        let nearest = so_far::<M, K>(ask);
         let (own, other) = (ask.number("the owner's root"), ask.number("another root"));
         let unmarked = m.not(nearest.marked(kernel));
         let far = m.splat(f32::INFINITY);
@@ -266,12 +263,7 @@ impl Theorem for Marked {
         kernel: K,
         ask: &mut impl Ask<M>,
     ) -> Statement<M::B> {
-        let nearest = certain::Nearest::<K> {
-            id: ask.integer("owner"),
-            lo: ask.number("lo"),
-            hi: ask.number("hi"),
-            rival: ask.number("rival"),
-        };
+        let nearest = so_far::<M, K>(ask);
         let far = m.splat(f32::INFINITY);
         Statement {
             steps: Vec::new(),

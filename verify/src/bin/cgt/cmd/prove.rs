@@ -41,6 +41,6 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if solvers.is_empty() {
         say("not judged: no solver was found; tests/fetch-solvers brings two\n")?;
     }
-    let told = !solvers.is_empty() && proofs.not_shown().is_empty();
+    let told = !proofs.lemmas.is_empty() && proofs.not_shown().is_empty();
     Ok(if told { ExitCode::SUCCESS } else { ExitCode::from(NO_VERDICT) })
 }
