@@ -39,6 +39,8 @@ pub mod run;
 
 pub mod case;
 
+pub mod properties;
+
 pub mod bench;
 
 pub mod spu;
