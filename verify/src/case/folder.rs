@@ -4,11 +4,15 @@
 use super::account::account;
 use super::{Case, CaseError};
 use crate::picture::{PictureError, WriteError, png, triptych, write_atomically};
+use image::imageops::{FilterType, resize};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// The variable that names the folder for failures; without it `target/cases`.
 pub const VARIABLE: &str = "CGT_CASES";
+
+/// Smaller pictures are magnified to this width at least.
+const WIDTH: u32 = 480;
 
 /// Why a failure was not kept.
 #[derive(Debug, Error)]
@@ -55,6 +59,8 @@ pub fn keep(case: &Case, folder: &Path, name: &str) -> Result<Kept, KeepError> {
     let file = folder.join(format!("{name}.json"));
     write_atomically(&file, case.to_json().as_bytes())?;
     let picture = triptych(&judged[frame].promised, &judged[frame].picture)?;
+    let factor = WIDTH.div_ceil(picture.width().max(1));
+    let picture = resize(&picture, factor * picture.width(), factor * picture.height(), FilterType::Nearest);
     write_atomically(&folder.join(format!("{name}.png")), &png(&picture)?)?;
     let account = account(&case, frame, pixel)?;
     write_atomically(&folder.join(format!("{name}.txt")), account.as_bytes())?;

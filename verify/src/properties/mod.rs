@@ -7,6 +7,7 @@
 //! What fails is made simpler twice: its recipe by proptest, its numbers by [`crate::case::shrink`]; then it is kept as a case.
 
 pub mod lattice;
+pub mod laws;
 pub mod place;
 pub mod recipe;
 pub mod relations;
@@ -108,11 +109,11 @@ pub fn told(property: &str, failure: &Failure, fails: &dyn Fn(&Case) -> bool) ->
     let spheres = small.frames.frames()[0].spheres().len();
     let size = small.camera.size();
     let name = format!("{property}-{:08x}", crc(small.to_json().as_bytes()));
-    let kept = match keep(
-        &Case { expected: Verdict::Undecidable, why: failure.message.clone(), ..small },
-        &folder(),
-        &name,
-    ) {
+    // As it was drawn, the picture shows more than its one pixel will.
+    let drawn = Case { why: failure.message.clone(), ..failure.case.clone() };
+    let drawn = keep(&drawn, &folder(), &format!("{name}-as-drawn"));
+    let small = Case { expected: Verdict::Undecidable, why: failure.message.clone(), ..small };
+    let kept = match drawn.and_then(|_| keep(&small, &folder(), &name)) {
         Ok(kept) => format!("{}\n\nAgain: {}", kept.account, kept.command),
         Err(error) => format!("The case was not kept: {error}."),
     };

@@ -22,7 +22,7 @@ use optimized::{Form, camera};
 use reference::{Arithmetic as Naively, Ray, Tracer};
 use std::cell::RefCell;
 use std::fmt::Write as _;
-use watch::{Note, Watch};
+use watch::{Note, Part, Watch};
 
 /// The most spheres and cells that are told of one by one.
 const MOST: usize = 40;
@@ -30,7 +30,8 @@ const MOST: usize = 40;
 /// What is compared of one sphere, in the order in which the kernels of [`optimized::sphere`] and [`optimized::certain`] do it.
 const ROUNDED: [&str; 5] =
     ["discriminant", "near root", "root taken", "before the nearest", "not after the nearest"];
-const CERTIFIED: [&str; 8] = [
+const CERTIFIED: [&str; 9] = [
+    NOTHING,
     "discriminant below its bound: a miss",
     "discriminant's upper end",
     "discriminant's lower end",
@@ -40,9 +41,11 @@ const CERTIFIED: [&str; 8] = [
     "root's upper end before the nearest",
     "loser's lower end before the rival's",
 ];
-const UNKNOWN_SIDE: [&str; 4] =
-    ["discriminant below its bound: a miss", "(the eye's side is not certain)", CERTIFIED[6], CERTIFIED[7]];
-const PLANES: [&str; 4] = ["lower Y", "upper Y", "lower Z", "upper Z"];
+const UNKNOWN_SIDE: [&str; 5] =
+    [NOTHING, CERTIFIED[1], "the eye's side is not certain, so neither is a hit", CERTIFIED[7], CERTIFIED[8]];
+/// A number compared with itself, to have a mask of all lanes.
+const NOTHING: &str = "";
+const PLANES: [&str; 4] = ["lowest Y", "highest Y", "lowest Z", "highest Z"];
 
 /// The account of a pixel.
 ///
@@ -247,44 +250,16 @@ fn told_meetings(
     let mut worker = Worker::default();
     notes.borrow_mut().clear();
     frame::block(m, seen, scene, camera, (&lanes, &painter), None, corner, &mut stripe, &mut worker);
-    let notes = notes.into_inner();
-    let met = notes.iter().filter(|note| matches!(note, Note::Sphere(_))).count();
-    line(out, format_args!("\nmet        {met} times a sphere by the block; lane {lane} of each:"));
-    let (mut shown, mut stage, mut compared) = (0, watch::Part::Other, 0);
-    for (n, note) in notes.iter().enumerate() {
-        match note {
-            Note::Sphere(id) => {
-                shown += 1;
-                compared = 0;
-                if shown <= MOST {
-                    line(out, format_args!("  sphere {id}"));
-                }
-            }
-            Note::Part(part) => (stage, compared) = (*part, 0),
-            Note::Any(site, bits) if shown <= MOST => match site {
-                Site::Culled => {
-                    let said = if *bits == 0 { "kept" } else { "dropped: wholly outside a plane" };
-                    line(out, format_args!("    culling: {said}"));
-                }
-                Site::Sphere => {
-                    let said = if *bits == 0 {
-                        "no ray of the block can hit it"
-                    } else {
-                        "some ray of the block may hit it"
-                    };
-                    line(out, format_args!("    intersection: {said}"));
-                }
-                _ => {}
-            },
-            Note::Compared { strict, x, y } if shown > 0 && shown <= MOST => {
-                told_comparison(out, seen.plan, stage, compared, (*strict, x, y), lane, &notes[n..]);
-                compared += 1;
-            }
-            Note::Any(..) | Note::Compared { .. } => {}
-        }
+    let meetings = Meeting::all(&notes.into_inner());
+    line(
+        out,
+        format_args!("\nmet        {} times a sphere by the block; lane {lane} of each:", meetings.len()),
+    );
+    for meeting in meetings.iter().take(MOST) {
+        meeting.told(out, seen.plan.arithmetic, lane);
     }
-    if shown > MOST {
-        line(out, format_args!("  ({} more)", shown - MOST));
+    if meetings.len() > MOST {
+        line(out, format_args!("  ({} more)", meetings.len() - MOST));
     }
     let counts = worker.counts;
     line(
@@ -302,52 +277,90 @@ fn told_meetings(
     );
 }
 
-fn told_comparison(
-    out: &mut String,
-    plan: Plan,
-    part: watch::Part,
-    number_in_part: usize,
-    (strict, x, y): (bool, &[f32; LANES], &[f32; LANES]),
-    lane: usize,
-    rest: &[Note],
-) {
-    let sign = if strict { "<" } else { "<=" };
-    let holds = |i: usize| if (strict && x[i] < y[i]) || (!strict && x[i] <= y[i]) { "yes" } else { "no" };
-    match part {
-        watch::Part::Cull => {
-            for (i, plane) in PLANES.iter().enumerate() {
-                line(
-                    out,
-                    format_args!("    plane {plane}: distance {:?} {sign} {:?}? {}", x[i], y[i], holds(i),),
-                );
+/// What a block did with a sphere.
+struct Meeting {
+    id: u32,
+    /// Distances from the four planes, and what they are held against.
+    planes: Option<Compared>,
+    dropped: bool,
+    /// What the intersection compared.
+    compared: Vec<Compared>,
+    /// Whether any ray may hit it.
+    possible: Option<bool>,
+}
+
+/// x < y if strict, else x <= y.
+#[derive(Clone, Copy)]
+struct Compared {
+    strict: bool,
+    x: [f32; LANES],
+    y: [f32; LANES],
+}
+
+impl Compared {
+    fn told(&self, i: usize) -> String {
+        let (x, y, sign) = (self.x[i], self.y[i], if self.strict { "<" } else { "<=" });
+        let holds = if self.strict { x < y } else { x <= y };
+        format!("{} {sign} {}? {}", number(x), number(y), if holds { "yes" } else { "no" })
+    }
+
+    fn is_of_the_same(&self) -> bool {
+        self.x.map(f32::to_bits) == self.y.map(f32::to_bits)
+    }
+}
+
+impl Meeting {
+    fn all(notes: &[Note]) -> Vec<Self> {
+        let (mut meetings, mut part) = (Vec::<Self>::new(), Part::Other);
+        for note in notes {
+            if let Note::Sphere(id) = *note {
+                meetings.push(Self {
+                    id,
+                    planes: None,
+                    dropped: false,
+                    compared: Vec::new(),
+                    possible: None,
+                });
+            }
+            let Some(meeting) = meetings.last_mut() else { continue };
+            match *note {
+                Note::Part(new) => part = new,
+                Note::Compared { strict, x, y } => match part {
+                    Part::Cull => meeting.planes = Some(Compared { strict, x, y }),
+                    Part::Intersect => meeting.compared.push(Compared { strict, x, y }),
+                    Part::Other => {}
+                },
+                Note::Any(Site::Culled, lanes) => meeting.dropped = lanes != 0,
+                Note::Any(Site::Sphere, lanes) => meeting.possible = Some(lanes != 0),
+                Note::Any(..) | Note::Sphere(_) => {}
             }
         }
-        watch::Part::Intersect => {
-            // Which of the certified kernel's ways it goes shows in its second comparison, of a number with itself.
-            let unknown = |x: &[f32; LANES], y: &[f32; LANES]| x.map(f32::to_bits) == y.map(f32::to_bits);
-            let second = rest.iter().filter_map(|note| match note {
-                Note::Compared { x, y, .. } => Some((x, y)),
-                _ => None,
-            });
-            let labels: &[&str] = match plan.arithmetic {
-                Arithmetic::Rounded(_) | Arithmetic::Spu(_) => &ROUNDED,
-                Arithmetic::Certified => {
-                    let mut seen = second.skip(1);
-                    let is_unknown = number_in_part == 0 && seen.next().is_some_and(|(x, y)| unknown(x, y));
-                    if is_unknown || (number_in_part == 1 && unknown(x, y)) {
-                        &UNKNOWN_SIDE
-                    } else {
-                        &CERTIFIED
-                    }
-                }
-            };
-            let label = labels.get(number_in_part).copied().unwrap_or("compared");
-            line(
-                out,
-                format_args!("    {label}: {} {sign} {}? {}", number(x[lane]), number(y[lane]), holds(lane),),
-            );
+        meetings
+    }
+
+    fn told(&self, out: &mut String, arithmetic: Arithmetic, lane: usize) {
+        line(out, format_args!("  sphere {}", self.id));
+        if let Some(planes) = self.planes {
+            for (i, plane) in PLANES.iter().enumerate() {
+                line(out, format_args!("    distance from the plane of the {plane}: {}", planes.told(i)));
+            }
+            let said = if self.dropped { "dropped: wholly outside a plane" } else { "kept" };
+            line(out, format_args!("    culling: {said}"));
         }
-        watch::Part::Other => {}
+        let labels: &[&str] = match arithmetic {
+            Arithmetic::Rounded(_) | Arithmetic::Spu(_) => &ROUNDED,
+            // Where the eye is not certain to be on a side, the kernel compares a bound with itself.
+            Arithmetic::Certified if self.compared.get(2).is_some_and(Compared::is_of_the_same) => {
+                &UNKNOWN_SIDE
+            }
+            Arithmetic::Certified => &CERTIFIED,
+        };
+        for (compared, label) in self.compared.iter().zip(labels).filter(|(_, label)| **label != NOTHING) {
+            line(out, format_args!("    {label}: {}", compared.told(lane)));
+        }
+        if self.possible == Some(false) {
+            line(out, format_args!("    no ray of the block can hit it"));
+        }
     }
 }
 
