@@ -8,6 +8,7 @@
 mod bytes;
 mod certified;
 mod filter;
+mod mutate;
 mod plan;
 mod queue;
 mod readers;
@@ -20,6 +21,7 @@ mod walk;
 
 pub use certified::certified;
 pub use filter::filter;
+pub use mutate::mutated;
 pub use queue::queue;
 pub use readers::{dcd, json, lammps, nff, pdb, pov, xtc, xyz};
 pub use scene::scene;
