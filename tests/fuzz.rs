@@ -41,30 +41,32 @@ fn run(target: &Target, bytes: &[u8], what: &dyn Fn() -> String) -> u64 {
     })
 }
 
-/// The least that a target's corpus must come to: of a hundred inputs so many judge something, and answers judged in all.
-const LEAST: [(&str, u64, u64); 16] = [
-    ("certified", 70, 2_000),
-    ("dcd", 30, 30),
-    ("filter", 70, 20),
-    ("json", 20, 5),
-    ("lammps", 30, 20),
-    ("nff", 30, 10),
-    ("pdb", 30, 20),
-    ("pov", 30, 5),
-    ("queue", 90, 1_000),
-    ("scene", 60, 500),
-    ("spu", 100, 10_000),
-    ("visible", 50, 500),
-    ("voxelize", 50, 5_000),
-    ("walk", 100, 1_000),
-    ("xtc", 30, 30),
-    ("xyz", 30, 20),
+/// The least that a target must come to: of a hundred inputs of its corpus so many judge something, and answers judged in all; and of a
+/// thousand changed inputs so many judge something. What is changed in a file mostly makes it one to be refused, which a reader's
+/// corpus is full of, too.
+const LEAST: [(&str, u64, u64, u64); 16] = [
+    ("certified", 80, 2_000, 700),
+    ("dcd", 10, 30, 10),
+    ("filter", 70, 20, 600),
+    ("json", 5, 10, 2),
+    ("lammps", 10, 10, 20),
+    ("nff", 10, 10, 20),
+    ("pdb", 10, 20, 20),
+    ("pov", 10, 5, 20),
+    ("queue", 90, 1_000, 900),
+    ("scene", 60, 500, 400),
+    ("spu", 100, 10_000, 1_000),
+    ("visible", 50, 500, 400),
+    ("voxelize", 50, 5_000, 400),
+    ("walk", 100, 1_000, 1_000),
+    ("xtc", 10, 30, 20),
+    ("xyz", 10, 20, 20),
 ];
 
 #[test]
 fn every_input_passes_and_most_are_judged() {
-    assert_eq!(LEAST.map(|(name, ..)| name), TARGETS.map(|target| target.name), "a target was added or lost");
-    for (target, (_, share, answers)) in TARGETS.iter().zip(LEAST) {
+    assert_eq!(LEAST.map(|least| least.0), TARGETS.map(|target| target.name), "a target was added or lost");
+    for (target, (_, share, answers, _)) in TARGETS.iter().zip(LEAST) {
         let corpus = corpus(target);
         let counts: Vec<u64> = corpus
             .par_iter()
@@ -85,7 +87,7 @@ fn every_input_passes_and_most_are_judged() {
 fn changed_inputs_pass_too() {
     let (seed, rounds) = (seed(), count("CGT_FUZZ_ROUNDS", 150));
     eprintln!("CGT_SEED={seed}, {rounds} rounds");
-    for (t, target) in (0..).zip(&TARGETS) {
+    for ((t, target), (.., least)) in (0..).zip(&TARGETS).zip(LEAST) {
         let corpus = corpus(target);
         let tasks = (0..rounds).into_par_iter().flat_map_iter(|round| {
             let inputs = 0..corpus.len() as u64;
@@ -103,7 +105,11 @@ fn changed_inputs_pass_too() {
         let sum = |x: [u64; 3], y: [u64; 3]| [0, 1, 2].map(|i| x[i] + y[i]);
         let [runs, judging, judged] = tasks.map(judge).reduce(|| [0; 3], sum);
         eprintln!("{}: {runs} runs, of which {judging} judge {judged} answers", target.name);
-        assert!(100 * judging > runs, "{}: of {runs} changed inputs only {judging} judge", target.name);
+        assert!(
+            1000 * judging >= least * runs,
+            "{}: of {runs} changed inputs only {judging} judge",
+            target.name
+        );
     }
 }
 
