@@ -387,13 +387,54 @@ fn help_is_enough_for_a_stranger() {
             "code {code} is not told"
         );
     }
-    for command in ["verify", "render", "scenes"] {
+    for command in ["verify", "render", "scenes", "replay"] {
         let help = desk.run(&[command, "--help"]);
         assert_eq!(help.code, 0, "{command}");
         assert!(help.out.contains("Usage: cgt"), "{command}");
     }
     let version = desk.run(&["--version"]);
     assert_eq!((version.code, version.out), (0, format!("cgt {}\n", env!("CARGO_PKG_VERSION"))));
+}
+
+/// A committed case: as it should be, with a pixel of choice, made smaller, kept; and what is no case, or no pixel of it.
+#[test]
+fn a_case_is_replayed_step_by_step() {
+    let desk = Desk::new();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/cases");
+    let case = folder.join("paper-to-the-letter.json").display().to_string();
+    let said = desk.run(&["replay", &case]);
+    assert_eq!((said.code, said.err.as_str()), (0, ""), "{}", said.out);
+    for word in
+        ["pixel      (", "frustum    along", "slice", "culling: ", "discriminant: ", "Wrong, as it should be"]
+    {
+        assert!(said.out.contains(word), "no `{word}` in\n{}", said.out);
+    }
+    let chosen = desk.run(&["replay", &case, "--pixel", "0,0", "--shrink", "--out", "kept"]);
+    assert_eq!(chosen.code, 0, "{}{}", chosen.out, chosen.err);
+    assert!(
+        chosen.out.contains("pixel      (0, 0) of frame 0") && chosen.out.contains("shrunk     to"),
+        "{}",
+        chosen.out
+    );
+    let kept = desk.path("kept/paper-to-the-letter.json").display().to_string();
+    assert_eq!(desk.run(&["replay", &kept]).code, 0);
+    // The same scene held to what it does not do.
+    let text = std::fs::read_to_string(&case).expect("a case").replace("\"wrong\"", "\"equal\"");
+    std::fs::write(desk.path("held.json"), text).expect("written");
+    let held = desk.run(&["replay", "held.json"]);
+    assert_eq!(held.code, 1, "{}{}", held.out, held.err);
+    assert!(held.out.contains("Wrong, NOT as it should be (Equal)"), "{}", held.out);
+    for (words, why) in [
+        (vec!["replay", &case, "--pixel", "99,0"], "lies beyond the picture"),
+        (vec!["replay", &case, "--pixel", "9"], "expected X,Y"),
+        (vec!["replay", &case, "--frame", "7"], "not 7"),
+        (vec!["replay", "cut.xyz"], "`cut.xyz`:"),
+        (vec!["replay", "nowhere.json"], "`nowhere.json`:"),
+    ] {
+        let said = desk.run(&words);
+        assert_eq!(said.code, 2, "{words:?}");
+        assert!(said.err.contains(why), "{words:?}: {}", said.err);
+    }
 }
 
 #[test]

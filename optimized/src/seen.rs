@@ -302,7 +302,13 @@ impl Seen {
         }
         let Some(grid) = &self.grid else {
             counts.candidates += self.spheres.len() as u64;
+            m.stage(Stage::Intersect);
             for (id, sphere) in (0..).zip(&self.spheres) {
+                m.beside(
+                    Chore::Sphere(id),
+                    #[inline(always)]
+                    || (),
+                );
                 hits.meet(m, sphere, heading.towards(sphere.f), id);
             }
             return hits;

@@ -201,6 +201,12 @@ impl Grid {
         let name = if several { format!("{}@{level}", plan.name()) } else { plan.name().to_owned() };
         let chosen = plan.plan();
         let plan = Plan { resolution: cells.map_or(chosen.resolution, Resolution::Fixed), ..chosen };
+        Self::of(plan, level, name)
+    }
+
+    /// The tracer of any plan, under a name of the caller's.
+    #[must_use]
+    pub fn of(plan: Plan, level: Level, name: String) -> Self {
         Self {
             name,
             description: format!("packets of 4x4 rays through a grid rebuilt for the frame: {plan}"),
@@ -283,6 +289,15 @@ fn event_notes(events: &Events) -> Vec<String> {
     kinds.into_iter().filter_map(note).collect()
 }
 
-/// Every naive subject, in the order of the report.
+/// Every naive subject there is.
+pub const NAIVE_ALL: [Naive; 5] = [
+    Naive(Rounding::TextbookF64),
+    Naive(Rounding::PerpendicularF32),
+    Naive(Rounding::TextbookF32),
+    Naive(Rounding::PerpendicularSpu),
+    Naive(Rounding::TextbookSpu),
+];
+
+/// The naive subjects of the report, in its order.
 pub const NAIVE: [Naive; 3] =
     [Naive(Rounding::TextbookF64), Naive(Rounding::PerpendicularF32), Naive(Rounding::TextbookF32)];

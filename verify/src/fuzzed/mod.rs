@@ -23,7 +23,7 @@ pub use certified::certified;
 pub use filter::filter;
 pub use mutate::mutated;
 pub use queue::queue;
-pub use readers::{dcd, json, lammps, nff, pdb, pov, xtc, xyz};
+pub use readers::{case, dcd, json, lammps, nff, pdb, pov, xtc, xyz};
 pub use scene::scene;
 pub use spu::spu;
 pub use visible::visible;
@@ -42,7 +42,12 @@ pub struct Target {
 }
 
 /// All bodies, by name.
-pub const TARGETS: [Target; 16] = [
+pub const TARGETS: [Target; 17] = [
+    Target {
+        name: "case",
+        what: "a case is read or refused, and comes back from what is written",
+        run: case,
+    },
     Target {
         name: "certified",
         what: "sixteen rays and a few spheres, what f32, f64 and integers say of them against the exact reference",

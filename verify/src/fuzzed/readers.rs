@@ -1,6 +1,7 @@
 //! Readers on any bytes: read or refused, never a panic; what is read can be framed, or that is refused. Spheres read are judged,
 //! and frames.
 
+use crate::case::Case;
 use crate::scenes::frame::Framing;
 use crate::scenes::read::{Loaded, read_bytes};
 use crate::scenes::write;
@@ -78,4 +79,23 @@ pub fn json(bytes: &[u8]) -> u64 {
     assert_eq!(bits(&first), bits(&again), "the bits of all numbers, read and read again");
     assert_eq!((&first.animation, first.camera), (&again.animation, again.camera), "read, read again");
     size(&first)
+}
+
+/// As a case; what is read must come back from what is written of it.
+///
+/// # Panics
+/// If it does not.
+pub fn case(bytes: &[u8]) -> u64 {
+    let Ok(first) = Case::from_json(bytes) else { return 0 };
+    let text = first.to_json();
+    let again = match Case::from_json(text.as_bytes()) {
+        Ok(again) => again,
+        Err(error) => panic!("what was written is refused: {error}\n{text}"),
+    };
+    // Its text has the bits of every number.
+    assert_eq!(text, again.to_json(), "written, and written again");
+    assert_eq!((&first.frames, first.camera), (&again.frames, again.camera), "read, read again");
+    let said = |case: &Case| (case.asked.to_string(), case.expected, case.pixel, case.why.clone());
+    assert_eq!(said(&first), said(&again), "read, read again");
+    first.frames.frames().len() as u64
 }

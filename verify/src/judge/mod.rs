@@ -53,21 +53,22 @@ pub fn judge(
         Promise::Exact => return wrong(Some(comparison), "Differs where it promised not to.".into()),
         Promise::Rounded(rounding) => rounding,
         Promise::EqualToNaive(rounding) => {
-            let twin = naive.map(|naive| compare(naive, subject));
+            let twin = naive.map(|naive| (naive, compare(naive, subject)));
             match twin {
                 None => return judgement(Verdict::NotJudged, comparison, "The naive picture is missing."),
-                Some(Err(shapeless)) => {
+                Some((_, Err(shapeless))) => {
                     return wrong(Some(comparison), format!("The pictures cannot be compared: {shapeless}."));
                 }
-                Some(Ok(twin)) if twin.first_wrong.is_some() => {
+                Some((naive, Ok(twin))) if twin.first_wrong.is_some() => {
                     let [x, y] = twin.first_wrong.unwrap_or_default();
+                    let differing = (0..naive.ids.len()).filter(|i| fault_at(naive, subject, *i).is_some());
                     let text = format!(
-                        "{} pixels differ from the naive picture of the same form, first at ({x}, {y}).",
-                        twin.wrong_ids + twin.wrong_t.max(twin.wrong_color),
+                        "Of its pixels {} differ from the naive picture of the same form, first ({x}, {y}).",
+                        differing.count(),
                     );
                     return wrong(Some(comparison), text);
                 }
-                Some(Ok(_)) => rounding,
+                Some((_, Ok(_))) => rounding,
             }
         }
     };

@@ -37,6 +37,7 @@ Examples:
   cgt bench 1hvr --peers embree --threads 1
   cgt spu 1hvr                          cycles on a PlayStation 3, stage by stage
   cgt prove                             proofs of the kernels, by solvers
+  cgt replay tests/cases/NAME.json      a case again, its pixel step by step
   cgt scenes                            what can be named";
 
 #[derive(Debug, Subcommand)]
@@ -52,6 +53,8 @@ pub(crate) enum Command {
     Spu(Spu),
     /// Prove what the kernels do for all inputs, with the solvers that are there (z3, bitwuzla, cvc5)
     Prove(Prove),
+    /// Judge a case again, and tell a pixel of it step by step
+    Replay(Replay),
     /// List the scenes that have names, and the formats that are read
     Scenes,
 }
@@ -267,6 +270,25 @@ pub(crate) struct Prove {
     pub(crate) smt: Option<PathBuf>,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct Replay {
+    /// The case's file, as a failure of a test or a fuzz target leaves it
+    #[arg(value_name = "CASE")]
+    pub(crate) case: PathBuf,
+    /// Column and row of the pixel to tell [default: the case's own, else the first wrong one]
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pub(crate) pixel: Option<[u32; 2]>,
+    /// Frame of the case that the pixel is of, counted from 0 [default: the first wrong one, else the last]
+    #[arg(long, value_name = "N")]
+    pub(crate) frame: Option<usize>,
+    /// First make the case smaller: spheres, then pixels, then rounder numbers, as long as it keeps failing
+    #[arg(long)]
+    pub(crate) shrink: bool,
+    /// Folder for the case, its picture (what was promised, what came, the difference) and the account
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) out: Option<PathBuf>,
+}
+
 impl View {
     /// What is wished of the camera.
     pub(crate) fn framing(&self) -> Framing {
@@ -306,6 +328,12 @@ fn size(text: &str) -> Result<Size, String> {
     let number = |text: &str| text.parse::<u32>().map_err(|e| format!("`{text}`: {e}"));
     let (width, height) = text.split_once(['x', 'X']).ok_or("expected WIDTHxHEIGHT, as 1280x720")?;
     Size::new(number(width)?, number(height)?).map_err(|e| e.to_string())
+}
+
+fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let (x, y) = text.split_once(',').ok_or("expected X,Y, as 3,7")?;
+    let number = |text: &str| text.trim().parse::<u32>().map_err(|e| format!("`{text}`: {e}"));
+    Ok([number(x)?, number(y)?])
 }
 
 fn range(text: &str) -> Result<Range<usize>, String> {

@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Some(Command::Bench(args)) => cmd::bench::run(&args),
         Some(Command::Spu(args)) => cmd::spu::run(&args),
         Some(Command::Prove(args)) => cmd::prove::run(&args),
+        Some(Command::Replay(args)) => cmd::replay::run(&args),
         Some(Command::Scenes) => cmd::scenes::scenes(),
     };
     outcome.unwrap_or_else(|failure| {

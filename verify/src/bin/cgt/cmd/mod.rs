@@ -4,6 +4,7 @@ pub(crate) mod bench;
 mod files;
 pub(crate) mod prove;
 pub(crate) mod render;
+pub(crate) mod replay;
 pub(crate) mod scenes;
 pub(crate) mod spu;
 pub(crate) mod verify;

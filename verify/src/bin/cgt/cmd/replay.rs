@@ -1,0 +1,49 @@
+//! `cgt replay`: a case judged again, and one of its pixels told step by step.
+
+use crate::args::Replay as Args;
+use crate::{Failure, say};
+use std::process::ExitCode;
+use verify::case::account::{account, check_pixel};
+use verify::case::folder::keep;
+use verify::case::shrink::shrink;
+use verify::case::{Case, worst};
+
+/// Questions that shrinking may ask.
+const QUESTIONS: u32 = 5_000;
+
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    let place = |error: &dyn std::fmt::Display| format!("`{}`: {error}", args.case.display());
+    let bytes = std::fs::read(&args.case).map_err(|error| place(&error))?;
+    let mut case = Case::from_json(&bytes).map_err(|error| place(&error))?;
+    if args.shrink {
+        let verdict = worst(&case.judge()?);
+        let same = |smaller: &Case| smaller.judge().is_ok_and(|judged| worst(&judged) == verdict);
+        case = shrink(&case, QUESTIONS, &same);
+        say(&format!(
+            "shrunk     to {} spheres and {}x{} pixels\n",
+            case.frames.frames()[0].spheres().len(),
+            case.camera.size().width(),
+            case.camera.size().height()
+        ))?;
+    }
+    let judged = case.judge()?;
+    let frames = judged.len();
+    let wrong = judged.iter().position(|judged| judged.wrong.is_some());
+    let frame = args.frame.or(wrong).unwrap_or(frames - 1);
+    if frame >= frames {
+        return Err(format!("the case has frames 0 to {}, not {frame}", frames - 1).into());
+    }
+    let pixel = args.pixel.or(case.pixel).or(judged[frame].wrong).unwrap_or([0, 0]);
+    check_pixel(case.camera.size(), pixel)?;
+    let verdict = worst(&judged);
+    say(&format!("{}\n\n{}", case.why, account(&case, frame, pixel)?))?;
+    let as_expected = case.is_as_expected(verdict);
+    let word = if as_expected { "as it should be" } else { "NOT as it should be" };
+    say(&format!("\ncase       {verdict:?}, {word} ({:?})\n", case.expected))?;
+    if let Some(folder) = &args.out {
+        let name = args.case.file_stem().map_or("case".into(), |name| name.to_string_lossy());
+        let kept = keep(&Case { pixel: Some(pixel), ..case }, folder, &name)?;
+        say(&format!("kept       {}\n", kept.file.display()))?;
+    }
+    Ok(if as_expected { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}

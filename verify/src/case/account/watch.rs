@@ -1,0 +1,131 @@
+//! A machine that computes as another one does and notes what is compared: how an account sees into kernels.
+
+use optimized::machine::{Chore, LANES, Machine, Site, Stage};
+use std::cell::RefCell;
+
+/// Which part of the work a comparison belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Cull,
+    Intersect,
+    Other,
+}
+
+/// What happened.
+#[derive(Clone, Debug)]
+pub(super) enum Note {
+    /// A part of the work begins.
+    Part(Part),
+    /// A sphere is met.
+    Sphere(u32),
+    /// x < y was asked, or if not `strict` x <= y.
+    Compared { strict: bool, x: [f32; LANES], y: [f32; LANES] },
+    /// Whether any lane says yes; the lanes that do.
+    Any(Site, u32),
+}
+
+/// Computes as `values` does and notes.
+#[derive(Clone, Copy)]
+pub(super) struct Watch<'a, V> {
+    pub(super) values: V,
+    pub(super) notes: &'a RefCell<Vec<Note>>,
+}
+
+impl<V> Watch<'_, V> {
+    fn note(&self, note: Note) {
+        self.notes.borrow_mut().push(note);
+    }
+}
+
+macro_rules! same {
+    ($($name:ident($($x:ident: $of:ident),*) -> $to:ident;)*) => {
+        $(fn $name(self, $($x: Self::$of),*) -> Self::$to {
+            self.values.$name($($x),*)
+        })*
+    };
+}
+
+impl<'a, V: Machine> Machine for Watch<'a, V> {
+    type F = V::F;
+    type I = V::I;
+    type B = V::B;
+    type Spu = Watch<'a, V::Spu>;
+
+    fn spu(self) -> Self::Spu {
+        Watch { values: self.values.spu(), notes: self.notes }
+    }
+    fn unit(self) -> f32 {
+        self.values.unit()
+    }
+    fn within<R>(self, work: impl FnOnce() -> R) -> R {
+        self.values.within(work)
+    }
+    fn stage(self, stage: Stage) {
+        self.note(Note::Part(match stage {
+            Stage::Cull => Part::Cull,
+            Stage::Intersect => Part::Intersect,
+            Stage::Voxelize | Stage::Frustum | Stage::Walk | Stage::Shade => Part::Other,
+        }));
+    }
+    fn beside<R>(self, chore: Chore, work: impl FnOnce() -> R) -> R {
+        if let Chore::Sphere(id) = chore {
+            self.note(Note::Sphere(id));
+        }
+        work()
+    }
+
+    fn lanes(self, x: [f32; LANES]) -> Self::F {
+        self.values.lanes(x)
+    }
+    fn lanes_i(self, x: [i32; LANES]) -> Self::I {
+        self.values.lanes_i(x)
+    }
+    fn to_array(self, x: Self::F) -> [f32; LANES] {
+        self.values.to_array(x)
+    }
+    fn to_array_i(self, x: Self::I) -> [i32; LANES] {
+        self.values.to_array_i(x)
+    }
+    fn to_bits(self, x: Self::B) -> u32 {
+        self.values.to_bits(x)
+    }
+    fn splat(self, x: f32) -> Self::F {
+        self.values.splat(x)
+    }
+    fn splat_i(self, x: i32) -> Self::I {
+        self.values.splat_i(x)
+    }
+    fn lt(self, x: Self::F, y: Self::F) -> Self::B {
+        self.note(Note::Compared { strict: true, x: self.to_array(x), y: self.to_array(y) });
+        self.values.lt(x, y)
+    }
+    fn le(self, x: Self::F, y: Self::F) -> Self::B {
+        self.note(Note::Compared { strict: false, x: self.to_array(x), y: self.to_array(y) });
+        self.values.le(x, y)
+    }
+    fn any(self, x: Self::B, site: Site) -> bool {
+        self.note(Note::Any(site, self.to_bits(x)));
+        self.values.any(x, site)
+    }
+    same! {
+        add(x: F, y: F) -> F;
+        sub(x: F, y: F) -> F;
+        mul(x: F, y: F) -> F;
+        div(x: F, y: F) -> F;
+        sqrt(x: F) -> F;
+        lt_i(x: I, y: I) -> B;
+        and(x: B, y: B) -> B;
+        or(x: B, y: B) -> B;
+        not(x: B) -> B;
+        select(choose: B, yes: F, no: F) -> F;
+        select_i(choose: B, yes: I, no: I) -> I;
+        add_i(x: I, y: I) -> I;
+        or_i(x: I, y: I) -> I;
+        shl_16(x: I) -> I;
+        shr_16(x: I) -> I;
+        floor(x: F) -> I;
+        truncate(x: F) -> I;
+        smallest(x: F) -> F;
+        largest(x: F) -> F;
+    }
+}

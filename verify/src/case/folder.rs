@@ -1,0 +1,69 @@
+//! Keeps a failure: the case's file, what was promised beside what came, and the account of its first wrong pixel, all under one name
+//! in a folder; and the line that runs it again.
+
+use super::account::account;
+use super::{Case, CaseError};
+use crate::picture::{PictureError, WriteError, png, triptych, write_atomically};
+use image::imageops::{FilterType, resize};
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// The variable that names the folder for failures; without it `target/cases`.
+pub const VARIABLE: &str = "CGT_CASES";
+
+/// Smaller pictures are magnified to this width at least.
+const WIDTH: u32 = 480;
+
+/// Why a failure was not kept.
+#[derive(Debug, Error)]
+#[allow(missing_docs, reason = "each says all itself")]
+pub enum KeepError {
+    #[error(transparent)]
+    Write(#[from] WriteError),
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    #[error("the folder `{folder}`: {cause}")]
+    Folder { folder: PathBuf, cause: std::io::Error },
+}
+
+/// What was kept.
+#[derive(Clone, Debug)]
+pub struct Kept {
+    /// The case's file.
+    pub file: PathBuf,
+    /// The command that judges it again and accounts for its pixel.
+    pub command: String,
+    /// The account.
+    pub account: String,
+}
+
+/// Where failures go.
+#[must_use]
+pub fn folder() -> PathBuf {
+    std::env::var_os(VARIABLE).map_or_else(|| Path::new("target").join("cases"), PathBuf::from)
+}
+
+/// Writes `NAME.json`, `NAME.png` and `NAME.txt`.
+///
+/// # Errors
+/// [`KeepError`] if one of them cannot be made or written.
+pub fn keep(case: &Case, folder: &Path, name: &str) -> Result<Kept, KeepError> {
+    std::fs::create_dir_all(folder).map_err(|cause| KeepError::Folder { folder: folder.into(), cause })?;
+    let judged = case.judge()?;
+    let wrong = judged.iter().position(|judged| judged.wrong.is_some());
+    let frame = wrong.unwrap_or(judged.len() - 1);
+    let pixel = case.pixel.or(judged[frame].wrong).unwrap_or([0, 0]);
+    let case = Case { pixel: Some(pixel), ..case.clone() };
+    let file = folder.join(format!("{name}.json"));
+    write_atomically(&file, case.to_json().as_bytes())?;
+    let picture = triptych(&judged[frame].promised, &judged[frame].picture)?;
+    let factor = WIDTH.div_ceil(picture.width().max(1));
+    let picture = resize(&picture, factor * picture.width(), factor * picture.height(), FilterType::Nearest);
+    write_atomically(&folder.join(format!("{name}.png")), &png(&picture)?)?;
+    let account = account(&case, frame, pixel)?;
+    write_atomically(&folder.join(format!("{name}.txt")), account.as_bytes())?;
+    let command = format!("cgt replay {} --pixel {},{}", file.display(), pixel[0], pixel[1]);
+    Ok(Kept { file, command, account })
+}

@@ -1,0 +1,173 @@
+//! A case: a scene of one frame or more, a camera and one tracer, in a file that anyone can run again. Failures of properties, of
+//! fuzzing and of campaigns end as cases; those in `tests/cases` are judged in every run of the tests.
+//!
+//! In: parts, or the JSON of [`text`]. Out: the verdict of the judge on each frame ([`Case::judge`]). A case that fails is made small
+//! by [`shrink`], told step by step by [`account`](mod@account), and written with its picture by [`folder`].
+
+pub mod account;
+pub mod folder;
+pub mod plan_words;
+pub mod shrink;
+pub mod text;
+
+use crate::judge::compare::compare;
+use crate::judge::{Judgement, judge};
+use crate::subject::{Grid, Naive, Promise, Subject};
+use crate::verdict::Verdict;
+use contract::{Animation, Camera, Image, Scene};
+use optimized::{Level, Plan, RenderError, Tracer};
+use reference::Arithmetic;
+use std::fmt;
+use thiserror::Error;
+
+/// A tracer and what it is to trace.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Frames, rendered one after another by one session of the tracer.
+    pub frames: Animation,
+    /// The camera of all of them.
+    pub camera: Camera,
+    /// Who traces.
+    pub asked: Asked,
+    /// The verdict that is right for it: [`Verdict::Wrong`] for what is known to fail, as the paper's plan does.
+    pub expected: Verdict,
+    /// A pixel to look at, if any.
+    pub pixel: Option<[u32; 2]>,
+    /// What it shows, in a sentence.
+    pub why: String,
+}
+
+/// A tracer that a case names.
+#[derive(Clone, Copy, Debug)]
+pub enum Asked {
+    /// The reference in one of its roundings.
+    Naive(Naive),
+    /// The grid tracer.
+    Grid {
+        /// Its plan.
+        plan: Plan,
+        /// Its level.
+        level: Level,
+        /// Its workers, at least 1.
+        workers: u8,
+    },
+}
+
+/// Why a case was not judged.
+#[derive(Debug, Error)]
+pub enum CaseError {
+    /// The grid tracer refused or could not render a frame.
+    #[error("frame {frame} was refused: {error}")]
+    Refused {
+        /// Which, from 0.
+        frame: usize,
+        /// Why.
+        error: RenderError,
+    },
+    /// The reference gave no picture.
+    #[error("no truth to judge by: {0}")]
+    Reference(#[from] reference::RenderError),
+}
+
+impl fmt::Display for Asked {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Naive(naive) => f.write_str(naive.name()),
+            Self::Grid { plan, level, workers } => write!(f, "{plan}; {level}, {workers} workers"),
+        }
+    }
+}
+
+impl Asked {
+    /// What it is held to.
+    #[must_use]
+    pub fn promise(&self) -> Promise {
+        match self {
+            Self::Naive(naive) => naive.promise(),
+            Self::Grid { plan, level, .. } => Grid::of(*plan, *level, "grid".into()).promise(),
+        }
+    }
+}
+
+/// A frame as it was rendered and judged.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// What the tracer promised: the exact picture, or the naive one of its arithmetic.
+    pub promised: Image,
+    /// The tracer's.
+    pub picture: Image,
+    /// What the judge says.
+    pub judgement: Judgement,
+    /// The first pixel that breaks the promise, if one does: with a wrong id, else t, else colour.
+    pub wrong: Option<[u32; 2]>,
+}
+
+impl Case {
+    /// The tracer's pictures of all frames.
+    ///
+    /// # Errors
+    /// [`CaseError`] if there is none.
+    pub fn pictures(&self) -> Result<Vec<Image>, CaseError> {
+        let frames = self.frames.frames();
+        match self.asked {
+            Asked::Naive(naive) => {
+                let tracer = reference::Tracer::new(naive.0.naive()).threads(1);
+                frames.iter().map(|scene| Ok(tracer.render(scene, &self.camera)?.image)).collect()
+            }
+            Asked::Grid { plan, level, workers } => {
+                let refused = |frame: usize| move |error| CaseError::Refused { frame, error };
+                let tracer = Tracer::new(plan, level).workers(workers.max(1).into());
+                let mut session = tracer.session().map_err(refused(0))?;
+                let mut render = |(i, scene): (usize, &Scene)| {
+                    session.render(scene, &self.camera).map(|r| r.image.clone()).map_err(refused(i))
+                };
+                frames.iter().enumerate().map(&mut render).collect()
+            }
+        }
+    }
+
+    /// Renders all frames, exactly and by the tracer, and has the judge compare each.
+    ///
+    /// # Errors
+    /// [`CaseError`] if there is nothing to compare.
+    pub fn judge(&self) -> Result<Vec<Judged>, CaseError> {
+        let pictures = self.pictures()?;
+        let naive = |scene: &Scene, arithmetic: Arithmetic| {
+            reference::Tracer::new(arithmetic).threads(1).render(scene, &self.camera)
+        };
+        let promise = self.asked.promise();
+        let each = self.frames.frames().iter().zip(pictures).map(|(scene, picture)| {
+            let truth = naive(scene, Arithmetic::Exact)?.image;
+            let twin = match promise {
+                Promise::EqualToNaive(rounding) => Some(naive(scene, rounding.naive())?.image),
+                Promise::Exact | Promise::Rounded(_) => None,
+            };
+            let judgement = judge(scene, &self.camera, &truth, &picture, promise, twin.as_ref());
+            let promised = twin.unwrap_or(truth);
+            let differs = compare(&promised, &picture).ok().and_then(|comparison| comparison.first_wrong);
+            let wrong = differs.filter(|_| judgement.verdict == Verdict::Wrong);
+            Ok(Judged { promised, picture, judgement, wrong })
+        });
+        each.collect()
+    }
+
+    /// Whether a verdict is the one that is right for the case: a tracer that is to keep its promise may be better than it says.
+    #[must_use]
+    pub fn is_as_expected(&self, verdict: Verdict) -> bool {
+        match self.expected {
+            Verdict::Equal => verdict == Verdict::Equal,
+            Verdict::WithinBound => matches!(verdict, Verdict::Equal | Verdict::WithinBound),
+            Verdict::Undecidable => {
+                matches!(verdict, Verdict::Equal | Verdict::WithinBound | Verdict::Undecidable)
+            }
+            Verdict::Wrong | Verdict::NotJudged => verdict == self.expected,
+        }
+    }
+}
+
+/// The worst verdict on any frame.
+#[must_use]
+pub fn worst(judged: &[Judged]) -> Verdict {
+    let verdicts = judged.iter().map(|judged| judged.judgement.verdict);
+    verdicts.max_by_key(|verdict| *verdict as u8).unwrap_or(Verdict::NotJudged)
+}

@@ -1,0 +1,356 @@
+//! Properties: cases drawn by proptest, each held to what must be true of it.
+//!
+//! Two moods. *Certain* ([`certain`]): integers, where answers are known without any tracer and all tracers must have them to the last
+//! bit. *Anything*: [`pictures`] has directed recipes ([`recipe`]) and any finite f32 judged against the exact picture,
+//! [`relations()`] holds a tracer against itself. A run gives what was at stake ([`stakes`]), and says nothing if that was too little.
+//!
+//! What fails is made simpler twice: its recipe by proptest, its numbers by [`crate::case::shrink`]; then it is kept as a case.
+
+pub mod lattice;
+pub mod laws;
+pub mod place;
+pub mod recipe;
+pub mod relations;
+pub mod stakes;
+
+use crate::case::folder::{folder, keep};
+use crate::case::shrink::shrink;
+use crate::case::{Asked, Case, CaseError, worst};
+use crate::seed::generator;
+use crate::subject::NAIVE_ALL;
+use crate::verdict::Verdict;
+use contract::{Camera, Image};
+use lattice::{Lattice, lattice};
+use optimized::crew::Crew;
+use optimized::event::Events;
+use optimized::grid::Memory;
+use optimized::host::Scalar;
+use optimized::plan::Arithmetic;
+use optimized::seen::Seen;
+use optimized::sphere::Form;
+use optimized::{Level, Plan, Tracer};
+use proptest::prelude::*;
+use proptest::strategy::BoxedStrategy;
+use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
+use rand::RngExt;
+use rayon::prelude::*;
+use recipe::{ARITHMETICS, Recipe};
+use reference::Arithmetic as Naively;
+use relations::RELATIONS;
+use stakes::Stakes;
+use std::cell::RefCell;
+use std::fmt::Debug;
+
+/// Cases that one runner draws.
+const CHUNK: u64 = 16;
+/// Questions that shrinking may ask.
+const QUESTIONS: u32 = 4_000;
+
+/// What fails, and the case that shows it.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// What is wrong.
+    pub message: String,
+    /// The case.
+    pub case: Case,
+}
+
+/// Draws so many and holds each to a property; what was at stake.
+///
+/// # Errors
+/// The first failure, made simpler by proptest.
+fn run<T: Clone + Debug + Send>(
+    seed: u64,
+    cases: u64,
+    strategy: impl Fn() -> BoxedStrategy<T> + Sync,
+    check: impl Fn(&T) -> Result<Stakes, Failure> + Sync,
+) -> Result<Stakes, Failure> {
+    let chunks = (0..cases.div_ceil(CHUNK)).into_par_iter().map(|chunk| {
+        let config = Config {
+            cases: u32::try_from(CHUNK).expect("small"),
+            failure_persistence: None,
+            max_shrink_iters: 300,
+            ..Config::default()
+        };
+        let bytes: [u8; 32] = generator(seed, chunk).random();
+        let mut runner = TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes));
+        let (stakes, failure) = (RefCell::new(Stakes::default()), RefCell::new(None));
+        let outcome = runner.run(&strategy(), |drawn| match check(&drawn) {
+            Ok(found) => {
+                let sum = stakes.borrow().clone().and(&found);
+                stakes.replace(sum);
+                Ok(())
+            }
+            Err(failed) => {
+                let message = failed.message.clone();
+                failure.replace(Some(failed));
+                Err(TestCaseError::fail(message))
+            }
+        });
+        match outcome {
+            Ok(()) => Ok(stakes.into_inner()),
+            // The last that failed is the simplest, unless what failed is proptest itself, or a panic.
+            Err(TestError::Fail(why, drawn)) => Err(failure.into_inner().unwrap_or_else(|| {
+                panic!("{why}: {drawn:?}");
+            })),
+            Err(TestError::Abort(why)) => panic!("nothing could be drawn: {why}"),
+        }
+    });
+    chunks.try_reduce(Stakes::default, |a, b| Ok(a.and(&b)))
+}
+
+/// Shrinks a failure, keeps it in [`folder()`], and says what is wrong, how it looks and how to run it again.
+///
+/// # Panics
+/// Never: a case that cannot be kept is told of.
+#[must_use]
+pub fn told(property: &str, failure: &Failure, fails: &dyn Fn(&Case) -> bool) -> String {
+    let small = shrink(&failure.case, QUESTIONS, fails);
+    let spheres = small.frames.frames()[0].spheres().len();
+    let size = small.camera.size();
+    let name = format!("{property}-{:08x}", crc(small.to_json().as_bytes()));
+    // As it was drawn, the picture shows more than its one pixel will.
+    let drawn = Case { why: failure.message.clone(), ..failure.case.clone() };
+    let drawn = keep(&drawn, &folder(), &format!("{name}-as-drawn"));
+    let small = Case { expected: Verdict::Undecidable, why: failure.message.clone(), ..small };
+    let kept = match drawn.and_then(|_| keep(&small, &folder(), &name)) {
+        Ok(kept) => format!("{}\n\nAgain: {}", kept.account, kept.command),
+        Err(error) => format!("The case was not kept: {error}."),
+    };
+    format!(
+        "{}\nSmallest found: {spheres} spheres, {}x{} pixels.\n{kept}",
+        failure.message,
+        size.width(),
+        size.height()
+    )
+}
+
+/// Tells cases apart in names of files.
+fn crc(bytes: &[u8]) -> u32 {
+    let mut crc = flate2::Crc::new();
+    crc.update(bytes);
+    crc.sum()
+}
+
+/// Holds a case to the verdict of the judge on each of its frames; what was at stake.
+///
+/// # Errors
+/// What the judge says of it.
+pub fn judged(case: &Case) -> Result<Stakes, Failure> {
+    let mut stakes = Stakes::default();
+    let judged = match case.judge() {
+        Ok(judged) => judged,
+        Err(CaseError::Refused { .. }) => {
+            stakes.add("frames refused", 1);
+            return Ok(stakes);
+        }
+        Err(error) => return Err(Failure { message: error.to_string(), case: case.clone() }),
+    };
+    for (frame, judged) in judged.iter().enumerate() {
+        let verdict = judged.judgement.verdict;
+        if matches!(verdict, Verdict::Wrong | Verdict::NotJudged) {
+            let message =
+                format!("frame {frame} by {}: {verdict:?}. {}", case.asked, judged.judgement.because);
+            return Err(Failure { message, case: Case { pixel: judged.wrong, ..case.clone() } });
+        }
+        stakes.add(
+            match verdict {
+                Verdict::Equal => "frames equal to the truth",
+                Verdict::WithinBound => "frames within the bound of rounding",
+                _ => "frames beyond a form's range",
+            },
+            1,
+        );
+        let scene = &case.frames.frames()[frame];
+        stakes.add_frame(scene, &case.camera, &judged.promised);
+    }
+    if let Asked::Grid { plan, level, workers } = case.asked {
+        let scene = &case.frames.frames()[0];
+        let rendering = Tracer::new(plan, level).workers(workers.into()).render(scene, &case.camera);
+        if let Ok(rendering) = rendering {
+            stakes.add_tracer(&rendering.counts, &rendering.events);
+        }
+        let (mut memory, mut events) = (Memory::default(), Events::default());
+        let seen = Seen::new(Scalar, plan, scene, &case.camera, &mut memory, &mut events, &Crew::alone());
+        if let Some(grid) = seen.ok().and_then(|seen| seen.grid) {
+            stakes.add_grid(scene, &grid);
+        }
+    }
+    Ok(stakes)
+}
+
+/// Directed recipes, by any plan, level, number of workers and arithmetic, and naive tracers: the judge must find no promise broken.
+///
+/// # Errors
+/// The account of a failure, as [`told`] gives it.
+pub fn pictures(seed: u64, cases: u64) -> Result<Stakes, String> {
+    of_recipes("picture", seed, cases, &|| recipe::recipe(recipe::ball(), 14, &ARITHMETICS).boxed(), &judged)
+}
+
+/// Any finite numbers for spheres and camera.
+///
+/// # Errors
+/// The account of a failure.
+pub fn wild(seed: u64, cases: u64) -> Result<Stakes, String> {
+    let strategy = || {
+        let vector = || any::<[u32; 3]>().prop_map(|v| v.map(finite));
+        let camera = [vector(), vector(), vector(), vector()];
+        (recipe::recipe(recipe::wild(), 6, &ARITHMETICS), camera).boxed()
+    };
+    let with_camera = |(recipe, [eye, corner, du, dv]): &(Recipe, [[f32; 3]; 4])| {
+        let mut case = place::case(recipe)?;
+        // Mostly the recipe's camera sees more of them.
+        if let Ok(camera) = Camera::new(*eye, *corner, *du, *dv, case.camera.size()) {
+            case.camera = camera;
+        }
+        Some(case)
+    };
+    let check = |drawn: &(Recipe, [[f32; 3]; 4])| with_camera(drawn).map_or(Ok(none()), |case| judged(&case));
+    let outcome = run(seed, cases, strategy, check);
+    outcome.map_err(|failure| told("wild", &failure, &|case| judged(case).is_err()))
+}
+
+fn none() -> Stakes {
+    let mut stakes = Stakes::default();
+    stakes.add("recipes that give no case", 1);
+    stakes
+}
+
+/// The finite number nearest to those bits in spirit: an exponent of all ones loses its highest.
+fn finite(bits: u32) -> f32 {
+    f32::from_bits(if bits >> 23 & 0xff == 0xff { bits ^ 1 << 30 } else { bits })
+}
+
+/// Metamorphic relations of [`relations`], of exact plans mostly.
+///
+/// # Errors
+/// The account of a failure.
+pub fn relations(seed: u64, cases: u64) -> Result<Stakes, String> {
+    let check = |case: &Case| {
+        let mut stakes = Stakes::default();
+        let mut rng = generator(seed, u64::MAX);
+        for relation in RELATIONS {
+            let failed =
+                |message| Failure { message: format!("{message}; by {}", case.asked), case: case.clone() };
+            stakes.add(relation.name(), relation.hold(case, &mut rng).map_err(failed)?);
+        }
+        Ok(stakes)
+    };
+    of_recipes(
+        "relation",
+        seed,
+        cases,
+        &|| recipe::recipe(recipe::ball(), 10, &ARITHMETICS[..3]).boxed(),
+        &check,
+    )
+}
+
+fn of_recipes(
+    property: &str,
+    seed: u64,
+    cases: u64,
+    strategy: &(dyn Fn() -> BoxedStrategy<Recipe> + Sync),
+    check: &(dyn Fn(&Case) -> Result<Stakes, Failure> + Sync),
+) -> Result<Stakes, String> {
+    let of_recipe = |recipe: &Recipe| place::case(recipe).map_or(Ok(none()), |case| check(&case));
+    let outcome = run(seed, cases, strategy, of_recipe);
+    outcome.map_err(|failure| told(property, &failure, &|case| check(case).is_err()))
+}
+
+/// What is known of lattices ([`lattice`]), by every tracer: the naive ones in each of their arithmetics, and the grid tracer with a drawn
+/// plan in those that have the answer.
+///
+/// # Errors
+/// The account of a failure.
+pub fn certain(seed: u64, cases: u64) -> Result<Stakes, String> {
+    let plans = || recipe::plan(&ARITHMETICS[..1]);
+    let strategy = || (lattice(), plans(), prop::sample::select(Level::available()), 1u8..=3).boxed();
+    let check = |(lattice, plan, level, workers): &(Lattice, Plan, Level, u8)| {
+        let grid = |arithmetic| {
+            let blocks = if arithmetic == Arithmetic::Certified {
+                *plan
+            } else {
+                Plan { arithmetic, packet: optimized::plan::Packet::Block, ..*plan }
+            };
+            Asked::Grid { plan: blocks, level: *level, workers: *workers }
+        };
+        all_know(
+            lattice,
+            &[
+                (Form::Textbook, true, grid(Arithmetic::Rounded(Form::Textbook))),
+                (Form::Perpendicular, true, grid(Arithmetic::Rounded(Form::Perpendicular))),
+                (Form::Textbook, false, grid(Arithmetic::Certified)),
+            ],
+        )
+    };
+    let outcome = run(seed, cases, strategy, check);
+    outcome.map_err(|failure| {
+        told("certain", &failure, &|case| case.judge().is_ok_and(|judged| worst(&judged) == Verdict::Wrong))
+    })
+}
+
+/// Every tracer of a lattice: in which form it computes, and whether it is held to what is known in that form only.
+fn all_know(lattice: &Lattice, grids: &[(Form, bool, Asked)]) -> Result<Stakes, Failure> {
+    let mut stakes = Stakes::default();
+    let Some(case) = lattice.case(grids[0].2) else { return Ok(none()) };
+    let pixels: Vec<[u32; 2]> = {
+        let (width, height) = (case.camera.size().width(), case.camera.size().height());
+        (0..height).flat_map(|y| (0..width).map(move |x| [x, y])).collect()
+    };
+    let known: Vec<_> = pixels.iter().map(|pixel| lattice.known(&case.camera, *pixel)).collect();
+    for known in known.iter().flatten() {
+        stakes.add("rays whose answer is known", 1);
+        stakes.add("known hits", u64::from(known.answer.is_some()));
+        stakes.add("known in the textbook form", u64::from(known.textbook && known.answer.is_some()));
+        stakes
+            .add("known in the perpendicular form", u64::from(known.perpendicular && known.answer.is_some()));
+        stakes.add("known ties", u64::from(known.tie));
+        stakes.add("known tangents", u64::from(known.tangent));
+        stakes.add("known from inside or on a surface", u64::from(known.inside && known.answer.is_some()));
+    }
+    let hold = |asked: Asked, name: &str, image: &Image, form: Option<Form>| {
+        for ((i, pixel), known) in pixels.iter().enumerate().zip(&known) {
+            let Some(known) = known else { continue };
+            let is_known = match form {
+                None => true,
+                Some(Form::Textbook) => known.textbook,
+                Some(Form::Perpendicular) => known.perpendicular,
+            };
+            let came = (image.ids[i], image.t[i].to_bits());
+            if is_known && came != known.id_and_bits() {
+                let message = format!(
+                    "{name}: pixel {pixel:?} is id {} at t {:?} (0x{:08x}); integers know {:?}",
+                    came.0, image.t[i], came.1, known.answer,
+                );
+                return Err(Failure { message, case: Case { asked, pixel: Some(*pixel), ..case.clone() } });
+            }
+        }
+        Ok(())
+    };
+    let scene = &case.frames.frames()[0];
+    for (arithmetic, form) in [
+        (Naively::Exact, None),
+        (Naively::ExactUnfiltered, None),
+        (Naively::F64, None),
+        (Naively::F32Textbook, Some(Form::Textbook)),
+        (Naively::F32Perpendicular, Some(Form::Perpendicular)),
+    ] {
+        let image = reference::Tracer::new(arithmetic).threads(1).render(scene, &case.camera);
+        let Ok(rendering) = image else { continue };
+        let naive = NAIVE_ALL.into_iter().find(|naive| naive.0.naive() == arithmetic).unwrap_or(NAIVE_ALL[0]);
+        hold(Asked::Naive(naive), &format!("reference, {arithmetic:?}"), &rendering.image, form)?;
+        stakes.add("pictures of the reference", 1);
+    }
+    for (form, own, asked) in grids {
+        match lattice.case(*asked).map(|case| case.pictures()) {
+            Some(Ok(images)) => {
+                hold(*asked, &asked.to_string(), &images[0], own.then_some(*form))?;
+                stakes.add("pictures of the grid tracer", 1);
+            }
+            Some(Err(CaseError::Refused { .. })) => stakes.add("frames refused", 1),
+            Some(Err(error)) => return Err(Failure { message: error.to_string(), case: case.clone() }),
+            None => {}
+        }
+    }
+    Ok(stakes)
+}
