@@ -17,11 +17,12 @@ type Pairs = [[u32; LANES]; 2];
 pub fn spu(bytes: &[u8]) -> u64 {
     let mut from = Bytes(bytes);
     let mut pairs = [[0; LANES]; 2];
-    for lane in 0..LANES {
+    let [xs, ys] = &mut pairs;
+    for (first, second) in xs.iter_mut().zip(ys) {
         let x = pattern(&mut from);
         let (kind, off) = (from.byte(), i32::from(from.whole() % 4).cast_unsigned());
-        pairs[0][lane] = x;
-        pairs[1][lane] = match kind % 8 {
+        *first = x;
+        *second = match kind % 8 {
             // Nearly the same, of either sign: sums that cancel.
             0 => x.wrapping_add(off),
             1 => x.wrapping_add(off) ^ (1 << 31),
