@@ -5,8 +5,8 @@
 //! is random. What is judged: [`subject`], of other people `peers` (behind
 //! the feature of that name). How: [`judge`] by bits and by error bounds and by an outside witness
 //! (`embree`, behind the feature of that name), [`visible`] from inside the grid tracer, [`bounds`], [`margins`] and [`rounding`] on floats
-//! so [`small`] or so [`few`] of bits that all inputs can be tried, [`cells`] on all f32, [`prove`] by solvers for all inputs; a [`verdict`]
-//! is what they say. [`run`] does it all for one frame, a [`case`] is a failure that anyone can run again, [`bench`](mod@bench) says how
+//! so [`small`] or so [`few`] of bits that all inputs can be tried, [`cells`] on all f32, [`fuzzed`] on any bytes, [`prove`] by solvers
+//! for all inputs; a [`verdict`] is what they say. [`run`] does it all for one frame, a [`case`] is a failure that anyone can run again, [`bench`](mod@bench) says how
 //! fast, [`spu`] how fast on the paper's processor; [`claims`], [`picture`] and [`report`] show it.
 
 pub mod directed;
@@ -29,6 +29,8 @@ pub mod cells;
 pub mod margins;
 pub mod rounding;
 pub mod visible;
+
+pub mod fuzzed;
 
 pub mod prove;
 

@@ -7,7 +7,7 @@
 //! titles, then the number of atoms; each frame is a unit cell of 48 bytes where integer 11 says so, x, y, z, and a
 //! fourth dimension where integer 12 says so.
 
-use super::frames::Frames;
+use super::frames::{Frames, Input};
 use super::looks::{self, Looks, NO_ATOMS};
 use super::{Format, Loaded, ReadError};
 
@@ -30,8 +30,9 @@ struct Header {
     atoms: usize,
 }
 
-pub(super) fn read(file: &str, bytes: &[u8], looks: Option<&Looks>) -> Result<Loaded, ReadError> {
-    let mut frames = Frames::new(file, bytes.len());
+pub(super) fn read(input: Input<'_>, looks: Option<&Looks>) -> Result<Loaded, ReadError> {
+    let Input { file, bytes, .. } = input;
+    let mut frames = Frames::new(input);
     let mut records = Records::new(file, bytes)?;
     let header = records.header()?;
     if let Some(looks) = looks {

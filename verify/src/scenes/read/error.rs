@@ -174,7 +174,7 @@ pub enum ReadError {
         frame: usize,
         /// Bytes needed by then.
         need: u64,
-        /// Bytes of the file, unpacked.
+        /// Bytes of the file.
         input: usize,
         /// Bytes given.
         limit: u64,

@@ -3,7 +3,7 @@
 //! ([`super::super::write`]), bit for bit. Refused are numbers whose two forms disagree, unknown or missing
 //! fields, other versions, and what the contract refuses; the message has line and column.
 
-use super::frames::Frames;
+use super::frames::{Frames, Input, budget};
 use super::text::Lines;
 use super::{Format, Loaded, Place, ReadError};
 use contract::{Camera, Rgb, Size, Sphere};
@@ -115,7 +115,8 @@ fn our_format<'de, D: Deserializer<'de>>(from: D) -> Result<(), D::Error> {
     if format == FORMAT {
         Ok(())
     } else {
-        Err(D::Error::custom(format!("format {format:?}; {FORMAT:?} is read")))
+        let start: String = format.chars().take(40).collect();
+        Err(D::Error::custom(format!("format {start:?}; {FORMAT:?} is read")))
     }
 }
 
@@ -134,15 +135,22 @@ fn radius<'de, D: Deserializer<'de>>(from: D) -> Result<f32, D::Error> {
     if radius > 0.0 { Ok(radius) } else { Err(D::Error::custom(format!("radius {radius:?} is not above 0"))) }
 }
 
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
+pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
+    let Input { file, bytes, .. } = input;
     Lines::new(file, "cgt-scene JSON", bytes)?;
+    // What is parsed takes up to twice its text before it is frames, of which account is kept.
+    if let Some(packed) = input.packed
+        && 3 * bytes.len() as u64 > budget(packed)
+    {
+        return Err(ReadError::GzipLimit { file: file.into(), packed, limit: budget(packed) / 3 });
+    }
     let parsed: File = serde_json::from_slice(bytes).map_err(|e| {
         let text = e.to_string();
         let detail = text.rsplit_once(" at line ").map_or(text.as_str(), |(detail, _)| detail);
         let place = Place { file: file.into(), line: e.line(), column: e.column() };
         ReadError::Json { place, detail: detail.into() }
     })?;
-    let mut frames = Frames::new(file, bytes.len());
+    let mut frames = Frames::new(input);
     for frame in parsed.frames {
         (frames.background, frames.light) = (frame.background, plain(&frame.light));
         let mut spheres = frames.room(frame.spheres.len())?;

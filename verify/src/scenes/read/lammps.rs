@@ -6,7 +6,7 @@
 //! Atoms without a radius get 0.5, half of sigma in LAMMPS' units `lj`, with a warning, or their element's. The box
 //! of a triclinic cell is not undone for scaled positions; they are refused.
 
-use super::frames::Frames;
+use super::frames::{Frames, Input};
 use super::text::{Line, Lines};
 use super::{Format, Loaded, ReadError};
 use crate::scenes::elements::by_symbol;
@@ -37,8 +37,9 @@ enum End {
     Cut { line: usize, detail: String },
 }
 
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
-    let mut frames = Frames::new(file, bytes.len());
+pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
+    let Input { file, bytes, .. } = input;
+    let mut frames = Frames::new(input);
     let mut lines = Lines::new(file, "LAMMPS dump", bytes)?;
     let mut guessed = None;
     loop {

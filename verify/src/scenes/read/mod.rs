@@ -28,8 +28,10 @@ pub use gzip::limit as gzip_limit;
 
 use crate::scenes::frame::{Framing, FramingError};
 use contract::{Animation, Camera};
+use frames::Input;
 pub(super) use json::{FORMAT as JSON_FORMAT, VERSION as JSON_VERSION};
 use looks::Looks;
+use std::borrow::Cow;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -166,15 +168,17 @@ pub fn read_bytes(name: &str, bytes: &[u8], atoms: Option<(&str, &[u8])>) -> Res
         Some((file, bytes)) if format.wants_atoms() => Some(Looks::of(file, &read_bytes(file, bytes, None)?)),
         _ => None,
     };
+    let packed = matches!(plain, Cow::Owned(_)).then_some(bytes.len());
+    let input = Input { file: name, bytes: &plain, packed };
     let mut loaded = match format {
-        Format::Pdb => pdb::read(name, &plain),
-        Format::Xyz => xyz::read(name, &plain),
-        Format::Dcd => dcd::read(name, &plain, looks.as_ref()),
-        Format::Xtc => xtc::read(name, &plain, looks.as_ref()),
-        Format::Nff => nff::read(name, &plain),
-        Format::Lammps => lammps::read(name, &plain),
-        Format::Json => json::read(name, &plain),
-        Format::Pov => pov::read(name, &plain),
+        Format::Pdb => pdb::read(input),
+        Format::Xyz => xyz::read(input),
+        Format::Dcd => dcd::read(input, looks.as_ref()),
+        Format::Xtc => xtc::read(input, looks.as_ref()),
+        Format::Nff => nff::read(input),
+        Format::Lammps => lammps::read(input),
+        Format::Json => json::read(input),
+        Format::Pov => pov::read(input),
         Format::Generated => Err(ReadError::UnknownFormat { file: name.into(), extension: String::new() }),
     }?;
     let mut warn = |text: &str| {

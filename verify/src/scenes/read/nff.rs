@@ -6,7 +6,7 @@
 //! Colours are clamped to 0 to 1. Our light is a direction: from the origin towards the first light. `v` becomes a
 //! [`Framing`]; its angle is that of the picture's height.
 
-use super::frames::Frames;
+use super::frames::{Frames, Input};
 use super::text::{Line, Lines, NUMBER, Word};
 use super::{Format, Loaded, ReadError};
 use crate::scenes::frame::Framing;
@@ -23,8 +23,9 @@ struct State {
     in_view: bool,
 }
 
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
-    let mut frames = Frames::new(file, bytes.len());
+pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
+    let Input { file, bytes, .. } = input;
+    let mut frames = Frames::new(input);
     let mut state = State {
         color: [255, 255, 255],
         light: None,
@@ -73,7 +74,7 @@ fn read_line(line: Line<'_>, state: &mut State, frames: &mut Frames<'_>) -> Resu
         b"s" => {
             let center = line.vector(&mut words, ["x", "y", "z"])?;
             let radius = line.take(&mut words, "radius", NUMBER)?.radius("radius")?;
-            state.spheres.push(Sphere { center, radius, color: state.color });
+            frames.put(&mut state.spheres, Sphere { center, radius, color: state.color }, 0)?;
         }
         text if text[0] == b'#' => {}
         b"p" | b"pp" | b"tpp" => {

@@ -6,7 +6,7 @@
 //! locations (column 17), the first letter that occurs for that atom of that residue is kept and the others are left
 //! out, since they are places the atom is in at other times; a warning counts them.
 
-use super::frames::Frames;
+use super::frames::{Frames, Input};
 use super::text::{Line, Lines, NUMBER};
 use super::{Format, Loaded, ReadError, looks, pdb_element};
 use crate::scenes::elements::UNKNOWN;
@@ -30,14 +30,16 @@ struct Tally {
     first_unknown: Option<(usize, String)>,
 }
 
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
-    let mut frames = Frames::new(file, bytes.len());
+pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
+    let Input { file, bytes, .. } = input;
+    let mut frames = Frames::new(input);
     let (mut model, mut tally) = (Model::default(), Tally::default());
     let mut lines = Lines::new(file, "PDB", bytes)?;
     while let Some(line) = lines.next() {
         match line.columns(1, 6).text {
             b"ATOM" | b"HETATM" => match sphere(line, &mut model, &mut tally) {
-                Ok(Some(sphere)) => model.spheres.push(sphere),
+                // Beside it, at most, stands where its first location was.
+                Ok(Some(sphere)) => frames.put(&mut model.spheres, sphere, 1)?,
                 Ok(None) => {}
                 Err(error) if lines.cut_by(&error) && frames.len() > 0 => {
                     frames.cut(Some(line.number), error.to_string())?;

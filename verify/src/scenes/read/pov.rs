@@ -5,7 +5,7 @@
 //! POV-Ray's coordinates are left-handed, and lists like the teapot's have z up. y and z are exchanged, which makes
 //! them right-handed, so that pictures are not mirrored, with y up.
 
-use super::frames::Frames;
+use super::frames::{Frames, Input};
 use super::text::{Line, Lines};
 use super::{Format, Loaded, ReadError};
 use contract::Sphere;
@@ -14,14 +14,15 @@ use contract::Sphere;
 pub(super) const NAMED_RADIUS: f32 = 0.05;
 const WANT: &str = "a line of spheres must read: sphere {<x,y,z>,r}";
 
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
-    let mut frames = Frames::new(file, bytes.len());
+pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
+    let Input { file, bytes, .. } = input;
+    let mut frames = Frames::new(input);
     let mut spheres = Vec::new();
     let mut named = None;
     for line in Lines::new(file, "POV-Ray spheres", bytes)? {
         let rest = line.text.trim_ascii_start().strip_prefix(b"sphere");
         if rest.and_then(<[u8]>::first).is_some_and(|b| *b == b'{' || b.is_ascii_whitespace()) {
-            spheres.push(sphere(line, &mut named)?);
+            frames.put(&mut spheres, sphere(line, &mut named)?, 0)?;
         }
     }
     if let Some((line, name)) = named {

@@ -3,10 +3,11 @@
 //! (`xtc_stream`) before `molly` sees it, since it trusts both. Refused are wrong magic numbers, counts that
 //! disagree, streams that do not hold what they promise, and positions that are not finite.
 
-use super::frames::Frames;
+use super::frames::{Frames, Input};
 use super::looks::{self, Looks, NO_ATOMS};
 use super::xtc_stream::{self, Prelude};
 use super::{Format, Loaded, ReadError};
+use contract::Sphere;
 use molly::selection::AtomSelection;
 use molly::{Frame, XTCReader};
 
@@ -26,8 +27,9 @@ struct Checked<'a> {
     atoms: usize,
 }
 
-pub(super) fn read(file: &str, bytes: &[u8], looks: Option<&Looks>) -> Result<Loaded, ReadError> {
-    let mut frames = Frames::new(file, bytes.len());
+pub(super) fn read(input: Input<'_>, looks: Option<&Looks>) -> Result<Loaded, ReadError> {
+    let Input { file, bytes, .. } = input;
+    let mut frames = Frames::new(input);
     if looks.is_none() {
         frames.warn(None, NO_ATOMS);
     }
@@ -116,7 +118,7 @@ fn check<'a>(
     // Each atom takes two bits at least, so a count without its bytes is found before memory is taken for it.
     xtc_stream::check(&Prelude { low, high, width }, stream, atoms)
         .map_err(|what| wrong(file, at, "compressed frame", what, "a stream that holds its atoms"))?;
-    // molly decodes into a list of its own, 12 bytes an atom.
-    frames.allowed(atoms.saturating_mul(8) / 5)?;
+    // molly decodes into a list of its own, 12 bytes an atom, and copies the stream.
+    frames.allowed((atoms.saturating_mul(8) / 5).saturating_add(stream.len() / size_of::<Sphere>()))?;
     Ok(Some(Checked { bytes: whole, atoms }))
 }

@@ -3,7 +3,7 @@
 //! and be 0; further columns and blank lines between frames are passed over. Refused are counts the file has no bytes for and lines that hold
 //! no atom.
 
-use super::frames::Frames;
+use super::frames::{Frames, Input};
 use super::text::{Line, Lines};
 use super::{Format, Loaded, ReadError, looks};
 use crate::scenes::elements::{UNKNOWN, by_number, by_symbol};
@@ -12,8 +12,9 @@ use contract::Sphere;
 /// `H 0 0 0` and the end of its line.
 const SHORTEST_ATOM: usize = 8;
 
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Loaded, ReadError> {
-    let mut frames = Frames::new(file, bytes.len());
+pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
+    let Input { file, bytes, .. } = input;
+    let mut frames = Frames::new(input);
     let mut lines = Lines::new(file, "XYZ", bytes)?;
     loop {
         match frame(&mut lines, &mut frames) {

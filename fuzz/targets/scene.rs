@@ -1,0 +1,6 @@
+//! A picture by any plan against the reference's.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    verify::fuzzed::scene(bytes);
+});
