@@ -43,7 +43,7 @@ enum Expected {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 enum Tracer {
     Naive(String),
-    Grid { plan: PlanWords, level: String, workers: u8 },
+    Grid { plan: Box<PlanWords>, level: String, workers: u8 },
 }
 
 /// Why a file is no case.
@@ -53,7 +53,7 @@ pub enum TextError {
     #[error("{0}")]
     Json(#[from] serde_json::Error),
     /// Another format or version.
-    #[error("format {format:.40?}, version {version}; {FORMAT:?}, version {VERSION} is read")]
+    #[error("format `{format:.40}`, version {version}; `{FORMAT}`, version {VERSION} is read")]
     Version {
         /// As it stands there.
         format: String,
@@ -82,7 +82,7 @@ impl Case {
         let tracer = match self.asked {
             Asked::Naive(naive) => Tracer::Naive(naive.name().into()),
             Asked::Grid { plan, level, workers } => {
-                Tracer::Grid { plan: plan.into(), level: level.name().into(), workers }
+                Tracer::Grid { plan: Box::new(plan.into()), level: level.name().into(), workers }
             }
         };
         let expected = match self.expected {
@@ -119,7 +119,7 @@ impl Case {
                 )
             }
             Tracer::Grid { plan, level, workers } => Asked::Grid {
-                plan: plan.try_into().map_err(TextError::Words)?,
+                plan: (*plan).try_into().map_err(TextError::Words)?,
                 level: if level == "best" { Level::best()? } else { Level::named(&level)? },
                 workers: Some(workers)
                     .filter(|n| (1..=64).contains(n))

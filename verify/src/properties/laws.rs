@@ -104,10 +104,11 @@ impl Arbitrary for Drawn {
         };
         let mut numbers = [number(), number(), number()];
         // Equal ones and opposite ones would hardly be drawn.
-        for lane in 0..LANES {
+        let [first, second, _] = &mut numbers;
+        for (x, y) in first.iter().zip(second) {
             match u32::arbitrary(g) % 5 {
-                0 => numbers[1][lane] = numbers[0][lane],
-                1 => numbers[1][lane] = numbers[0][lane] ^ 1 << 31,
+                0 => *y = *x,
+                1 => *y = *x ^ 1 << 31,
                 _ => {}
             }
         }

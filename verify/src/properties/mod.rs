@@ -52,7 +52,13 @@ pub struct Failure {
     /// What is wrong.
     pub message: String,
     /// The case.
-    pub case: Case,
+    pub case: Box<Case>,
+}
+
+impl Failure {
+    fn new(message: String, case: Case) -> Self {
+        Self { message, case: Box::new(case) }
+    }
 }
 
 /// Draws so many and holds each to a property; what was at stake.
@@ -110,7 +116,7 @@ pub fn told(property: &str, failure: &Failure, fails: &dyn Fn(&Case) -> bool) ->
     let size = small.camera.size();
     let name = format!("{property}-{:08x}", crc(small.to_json().as_bytes()));
     // As it was drawn, the picture shows more than its one pixel will.
-    let drawn = Case { why: failure.message.clone(), ..failure.case.clone() };
+    let drawn = Case { why: failure.message.clone(), ..(*failure.case).clone() };
     let drawn = keep(&drawn, &folder(), &format!("{name}-as-drawn"));
     let small = Case { expected: Verdict::Undecidable, why: failure.message.clone(), ..small };
     let kept = match drawn.and_then(|_| keep(&small, &folder(), &name)) {
@@ -144,14 +150,14 @@ pub fn judged(case: &Case) -> Result<Stakes, Failure> {
             stakes.add("frames refused", 1);
             return Ok(stakes);
         }
-        Err(error) => return Err(Failure { message: error.to_string(), case: case.clone() }),
+        Err(error) => return Err(Failure::new(error.to_string(), case.clone())),
     };
     for (frame, judged) in judged.iter().enumerate() {
         let verdict = judged.judgement.verdict;
         if matches!(verdict, Verdict::Wrong | Verdict::NotJudged) {
             let message =
                 format!("frame {frame} by {}: {verdict:?}. {}", case.asked, judged.judgement.because);
-            return Err(Failure { message, case: Case { pixel: judged.wrong, ..case.clone() } });
+            return Err(Failure::new(message, Case { pixel: judged.wrong, ..case.clone() }));
         }
         stakes.add(
             match verdict {
@@ -230,8 +236,7 @@ pub fn relations(seed: u64, cases: u64) -> Result<Stakes, String> {
         let mut stakes = Stakes::default();
         let mut rng = generator(seed, u64::MAX);
         for relation in RELATIONS {
-            let failed =
-                |message| Failure { message: format!("{message}; by {}", case.asked), case: case.clone() };
+            let failed = |message| Failure::new(format!("{message}; by {}", case.asked), case.clone());
             stakes.add(relation.name(), relation.hold(case, &mut rng).map_err(failed)?);
         }
         Ok(stakes)
@@ -322,7 +327,7 @@ fn all_know(lattice: &Lattice, grids: &[(Form, bool, Asked)]) -> Result<Stakes, 
                     "{name}: pixel {pixel:?} is id {} at t {:?} (0x{:08x}); integers know {:?}",
                     came.0, image.t[i], came.1, known.answer,
                 );
-                return Err(Failure { message, case: Case { asked, pixel: Some(*pixel), ..case.clone() } });
+                return Err(Failure::new(message, Case { asked, pixel: Some(*pixel), ..case.clone() }));
             }
         }
         Ok(())
@@ -348,7 +353,7 @@ fn all_know(lattice: &Lattice, grids: &[(Form, bool, Asked)]) -> Result<Stakes, 
                 stakes.add("pictures of the grid tracer", 1);
             }
             Some(Err(CaseError::Refused { .. })) => stakes.add("frames refused", 1),
-            Some(Err(error)) => return Err(Failure { message: error.to_string(), case: case.clone() }),
+            Some(Err(error)) => return Err(Failure::new(error.to_string(), case.clone())),
             None => {}
         }
     }

@@ -53,6 +53,9 @@ impl Stakes {
     }
 
     /// Counts what lies in a frame for any tracer: its exact picture must be given.
+    ///
+    /// # Panics
+    /// Never: an image's pixels can be numbered.
     pub fn add_frame(&mut self, scene: &Scene, camera: &Camera, truth: &Image) {
         self.add("frames", 1);
         self.add("rays", truth.ids.len() as u64);

@@ -215,10 +215,7 @@ fn told_grid(out: &mut String, grid: &Grid, slices: &Slices, heading: Heading) {
     if told > MOST {
         line(
             out,
-            format_args!(
-                "  ({} cells in all; of the first {MOST} those that list something are shown)",
-                told
-            ),
+            format_args!("  ({told} cells in all; of the first {MOST} those that list something are shown)"),
         );
     }
 }
