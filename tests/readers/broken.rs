@@ -53,6 +53,8 @@ fn broken_xyz() {
         ("a.xyz", text("-1\n\n"), &["a.xyz:1:1", "\"-1\""]),
         ("a.xyz", text("99999999999\n\nH 0 0 0\n"), &["a.xyz:1:1", "count of atoms is 99999999999", "left"]),
         ("a.xyz", text("99999999999999999999999\n\nH 0 0 0\n"), &["a.xyz:1:1", "99999999999999999999999"]),
+        // Nine atoms take more than the nine bytes that are left.
+        ("a.xyz", text("9\n\nH 0 0 0\n"), &["a.xyz:1:1", "count of atoms is 9", "left"]),
         ("a.xyz", text("1\n\nH 0 0\n"), &["a.xyz:3:6", "z is missing"]),
         ("a.xyz", text("1\n\nH 0 nan 0\n"), &["a.xyz:3:5", "y is \"nan\""]),
         ("a.xyz", text("1\n\nH 0 0 -inf\n"), &["a.xyz:3:7", "z is \"-inf\""]),
