@@ -60,22 +60,25 @@ class Build:
         self.programs, self.helpers, self.errors = {}, [], []
 
 
-def build(folder, target, binaries, offline, limit=BUILD_LIMIT):
-    """Test programs of some binaries, given with their packages.
+def build(folder, target, binaries, packages, offline, before=(), features=(), environment=None, limit=BUILD_LIMIT):
+    """Test programs of some binaries of some packages; `before`: words before cargo's.
 
     Raises CannotBuild if cargo fails without an error in a file, and subprocess.TimeoutExpired.
     """
-    command = ["cargo", "test", "--no-run", "--message-format=json"]
+    command = [*before, "cargo", "test", "--no-run", "--message-format=json"]
     if (folder / "Cargo.lock").is_file():
         command.append("--locked")
     if offline:
         command.append("--offline")
-    # All packages in any case: so what they share is built with the same features whatever is asked for.
-    for package in sorted({package for package, _ in binaries.values()}):
+    command += ["--config", "profile.dev.opt-level=1", "--config", "profile.dev.debug=false",
+                "--config", 'profile.dev.package."*".opt-level=3']
+    for feature in features:
+        command += ["--features", feature]
+    for package in sorted(packages):
         command += ["--package", package]
     for name in sorted(binaries):
         command += ["--test", name]
-    environment = dict(os.environ, CARGO_TARGET_DIR=str(target), CARGO_PROFILE_DEV_DEBUG="false", CARGO_TERM_COLOR="never")
+    environment = dict(environment or os.environ, CARGO_TARGET_DIR=str(target), CARGO_TERM_COLOR="never")
     done = subprocess.run(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           timeout=limit)
     made = Build()

@@ -62,6 +62,8 @@ OPEN, CLOSE = {"(": ")", "[": "]", "{": "}"}, {")", "]", "}"}
 ASSIGN = {"=", "+=", "-=", "*=", "/=", "%=", "^=", "&=", "|=", "<<=", ">>="}
 BEFORE = {",", ";", "=>", "return", "if", "while", "match", "in", "else", ":"} | ASSIGN
 AFTER = {",", ";"} | CLOSE
+# Before the parameters of a closure.
+STARTS = {"(", ",", "=", "move", "{", "return", "=>"}
 ITEMS = {"let", "use", "const", "static", "fn", "pub", "struct", "enum", "impl", "trait", "type", "mod", "#", "where"}
 
 
@@ -93,14 +95,26 @@ def closes_parameters(words, i):
     """Whether the `|` at i ends the parameters of a closure."""
     for j in range(i - 1, -1, -1):
         if words[j] == "|":
-            return j == 0 or words[j - 1] in {"(", ",", "=", "move", "{", "return", "=>"}
+            return j == 0 or words[j - 1] in STARTS
         if words[j] in {";", "=>"}:
             return False
     return False
 
 
-def left(words, at):
-    """Where the expression begins that holds what is before `at`."""
+def in_parameters(words, at):
+    """Whether a place is among the parameters of a closure."""
+    depth = 0
+    for i in range(at - 1, -1, -1):
+        depth += (words[i] in CLOSE) - (words[i] in OPEN)
+        if depth < 0:
+            return False
+        if depth == 0 and words[i] == "|":
+            return not closes_parameters(words, i) and (i == 0 or words[i - 1] in STARTS)
+    return False
+
+
+def left(words, at, until):
+    """Where the expression begins that holds what is before `at`, and goes on to `until` at least."""
     depth = 0
     for i in range(at - 1, -1, -1):
         word = words[i]
@@ -110,6 +124,8 @@ def left(words, at):
             if depth == 0:
                 return i + 1
             depth -= 1
+        elif depth == 0 and word in {"if", "while", "match"} and has_block(words[i + 1:until]):
+            continue
         elif depth == 0 and (word in BEFORE or (word == "||" and (i == 0 or words[i - 1] in {"(", ",", "="}))):
             return i + 1
         elif depth == 0 and word == "|" and closes_parameters(words, i):
@@ -117,12 +133,30 @@ def left(words, at):
     return 0
 
 
+def has_block(words):
+    """Whether a bracket of a block opens outside of all others."""
+    depth = 0
+    for word in words:
+        if word == "{" and depth == 0:
+            return True
+        depth += (word in OPEN) - (word in CLOSE)
+    return False
+
+
+def is_head(words, begin):
+    """Whether what begins there stands before a block, or before the arrow of an arm with a condition."""
+    if begin == 0:
+        return False
+    is_let = words[begin - 1] == "=" and "let" in words and ("if" in words or "while" in words)
+    return is_let or words[begin - 1] in {"if", "while", "match", "in"}
+
+
 def right(words, at, is_head):
-    """Where it ends; `is_head`: of what stands before a block, or before the arrow of an arm with a condition."""
+    """Where it ends."""
     depth = 0
     for i in range(at, len(words)):
         word = words[i]
-        if word == "{" and depth == 0 and is_head and i == len(words) - 1:
+        if word == "{" and depth == 0 and is_head:
             return i
         if word in CLOSE:
             if depth == 0:
@@ -231,12 +265,11 @@ def switch(line, forms, before="", after=""):
     start = next((i for i in range(shortest) if len({of[i] for of in words}) > 1), shortest)
     tail = next((i for i in range(shortest - start) if len({of[-1 - i] for of in words}) > 1), shortest - start)
     while True:
-        begin = left(words[0], start)
-        ends = [right(of, max(begin, len(of) - tail), begin > 0 and of[begin - 1] in {"if", "while", "match", "in", "="})
-                for of in words]
+        begin = left(words[0], start, len(words[0]) - tail)
+        ends = [right(of, max(begin, len(of) - tail), is_head(of, begin)) for of in words]
         parts = [of[begin:end] for of, end in zip(words, ends)]
         rests = {tuple(of[end:]) for of, end in zip(words, ends)}
-        if all(parts) and all(map(is_one, parts)) and len(rests) == 1:
+        if all(parts) and all(map(is_one, parts)) and len(rests) == 1 and not in_parameters(words[0], begin):
             break
         # Out of as many brackets as the forms close and open, or else out of the next ones around.
         out = [unmatched(of[begin:end]) for of, end in zip(words, ends)]
@@ -258,7 +291,8 @@ def switch(line, forms, before="", after=""):
         begin, first = 1, False
     if first and before and before.rstrip()[-1:] not in {"{", "}", ";", ",", "(", "[", "=", "|", ">"}:
         raise NoSwitch("it begins before the line")
-    if last and after and after.lstrip()[:1] not in {"}", ")", "]"} and after.lstrip()[:2] not in {"&&", "||"}:
+    allowed = {"}", ")", "]"} | ({"{"} if words[0][0] in {"&&", "||"} else set())
+    if last and after and after.lstrip()[:1] not in allowed and after.lstrip()[:2] not in {"&&", "||"}:
         raise NoSwitch("it ends after the line")
     cut = lambda text, of, end: text[of[begin][1]:of[end - 1][2]]
     texts = [cut(text, of, end) for (_, text), of, end in zip([("", line), *forms], [own, *others], ends)]
@@ -267,6 +301,6 @@ def switch(line, forms, before="", after=""):
 
 
 def chosen(forms, line, around):
-    arms = "".join(f"if {condition} {{ {text} }} else " for condition, text in forms)
-    text = f"{arms}{{ {line} }}"
-    return f"{around[0]}{text}{around[1]}" if around else text
+    wrap = (lambda text: f"({text})") if around else (lambda text: text)
+    arms = "".join(f"if {condition} {{ {wrap(text)} }} else " for condition, text in forms)
+    return wrap(f"{arms}{{ {wrap(line)} }}")
