@@ -31,7 +31,7 @@ pub fn halvings(mut x: u32) -> u32 {
     let mut count = 0;
     while x > 0 {
         x /= 2;
-        count += 1;
+        count = (count + 1) % 1000;
     }
     count
 }
@@ -110,7 +110,7 @@ CASES = [
     ("a-stale-line", "x +  y", "x - y", "sums", False, verdicts.STALE),
     ("a-line-that-stands-twice", "}", "};", "sums", False, verdicts.STALE),
     ("an-unchanged-one", "2 * x", "x * 2", "doubles", False, verdicts.UNCHANGED),
-    ("a-killed-one-alone", "count += 1;", "count += 2;", "ends", True, verdicts.KILLED),
+    ("a-killed-one-alone", "count = (count + 1) % 1000;", "count = (count + 2) % 1000;", "ends", True, verdicts.KILLED),
     ("a-killer-that-is-not-there", "2 * y", "3 * y", "nothing", False, verdicts.NO_TEST),
     ("a-killer-that-fails-anyway", "2 * y", "4 * y", "fails_anyway", False, verdicts.UNSOUND),
 ]

@@ -12,43 +12,30 @@ import re
 import zlib
 
 VARIABLE = "CGT_FAULT"
-REACHED = "CGT_FAULT_REACHED"
 
-# Appended to the crate `contract`, of which all others know.
+# Appended to the crate `contract`, of which all others know. The number is read before `main`, so that asking costs a comparison:
+# with more at each place the compiler would take many times as long for what is inlined everywhere.
 SOURCE = '''
-/// Number of the fault that is on; the two largest mean not yet read and none.
+/// Number of the fault that is on; the largest means none.
 static FAULT: std::sync::atomic::AtomicU32 = std::sync::atomic::AtomicU32::new(u32::MAX);
 
 /// Whether the seeded fault of that number is on.
 #[inline(always)]
 #[must_use]
 pub fn fault(number: u32) -> bool {
-    let mut on = FAULT.load(std::sync::atomic::Ordering::Relaxed);
-    if on == u32::MAX {
-        on = read_fault();
-    }
-    on == number && reached_fault()
+    FAULT.load(std::sync::atomic::Ordering::Relaxed) == number
 }
 
-#[cold]
-#[inline(never)]
-fn read_fault() -> u32 {
-    let on = std::env::var("CGT_FAULT").ok().and_then(|text| text.parse().ok()).unwrap_or(u32::MAX - 1);
-    FAULT.store(on, std::sync::atomic::Ordering::Relaxed);
-    on
+extern "C" fn read_fault() {
+    let on = std::env::var("CGT_FAULT").ok().and_then(|text| text.parse().ok());
+    FAULT.store(on.unwrap_or(u32::MAX), std::sync::atomic::Ordering::Relaxed);
 }
 
-#[cold]
-#[inline(never)]
-fn reached_fault() -> bool {
-    static TOLD: std::sync::Once = std::sync::Once::new();
-    TOLD.call_once(|| {
-        if let Some(path) = std::env::var_os("CGT_FAULT_REACHED") {
-            _ = std::fs::write(path, "");
-        }
-    });
-    true
-}
+#[used]
+#[allow(unsafe_code)]
+#[cfg_attr(target_os = "macos", unsafe(link_section = "__DATA,__mod_init_func"))]
+#[cfg_attr(not(target_os = "macos"), unsafe(link_section = ".init_array"))]
+static READ_FAULT: extern "C" fn() = read_fault;
 '''
 
 TOKEN = re.compile(r'''
