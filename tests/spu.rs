@@ -961,7 +961,7 @@ fn repeats_do_not_end_with_many_packets() {
     let counted = |side: u32| {
         let size = Size::new(side, side).expect("a size");
         let camera =
-            Camera::new([0.0, 0.0, 4.0], [-0.3, -0.2, -4.0], [1e-5, 0.0, 0.0], [0.0, 1e-5, 0.0], size);
+            Camera::new([0.0, 0.0, 4.0], [-0.9, -0.9, -4.0], [1e-5, 0.0, 0.0], [0.0, 1e-5, 0.0], size);
         let model = measured(plan, &scene, &camera.expect("it has an area"), 1);
         [model.trace.packets, model.trace.fetched, model.trace.repeats]
     };
