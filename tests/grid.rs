@@ -224,7 +224,8 @@ fn every_event_is_told() {
     assert_eq!(refused, optimized::RenderError::Refused(Event::OutOfRange));
     let corners =
         Plan { voxelizer: Voxelizer::EightCorners, resolution: Resolution::Fixed(8), ..Plan::safe() };
-    let spheres = vec![ball([0.0; 3], 1.0), ball([4.0; 3], 0.01), ball([1.0; 3], 1.0)];
+    // The last one's box spans three cells of 0.63 on each axis, no more.
+    let spheres = vec![ball([0.0; 3], 1.0), ball([4.0; 3], 0.01), ball([1.0; 3], 1.0), ball([1.8; 3], 0.4)];
     let events = render(corners, spheres).expect("falls back").events;
     let told: Vec<u32> = events
         .first()
@@ -234,7 +235,7 @@ fn every_event_is_told() {
             _ => None,
         })
         .collect();
-    assert_eq!(told, [0, 2]);
+    assert_eq!(told, [0, 2, 3]);
 }
 
 /// A grid chosen for eight corners has cells wider than any sphere's box.

@@ -176,7 +176,7 @@ fn silence_is_counted() {
 fn who_sees_through_a_sphere_is_wrong() {
     let ball = |z: f32| Sphere { center: [0.0, 0.0, z], radius: 1.0, color: [9; 3] };
     let scene = |balls: &[Sphere]| Scene::new(balls.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
-    let framing = Framing { eye: Some([0.0, 0.0, -9.0]), ..sized(32, 32) };
+    let framing = Framing { eye: Some([0.0, 0.0, -9.0]), ..sized(64, 64) };
     let bench = Bench::new(scene(&[ball(0.0), ball(5.0)]), &framing);
     let far = Tracer::new(Arithmetic::F32Perpendicular).render(&scene(&[ball(5.0)]), &bench.camera);
     let far = far.expect("small").image;
