@@ -108,3 +108,22 @@ fn truncation_needs_its_own_bound() {
     let others = adversity(Trial { machine: small, rule: Rule::new(nearest), factor: 1.0 }, small);
     assert!(others.wrong > 0, "the bound for rounding to nearest is enough: {others:?}");
 }
+
+/// The check of roots alone: without any bound the sphere that is hit is told from the one that is not, mostly, and nearly no root lies
+/// where it should.
+#[test]
+fn without_a_bound_roots_lie_elsewhere() {
+    let (signed, ahead): (Vec<i64>, Vec<i64>) = ((-15..=15).collect(), (1..=15).collect());
+    let balls = balls([&ahead, &signed, &signed], &[0], &[9]);
+    let small = Small { bits: 4, mode: Mode::Nearest };
+    let directions = all_directions(4, 3);
+    let (full, none) = (exhaust(small, 1.0, &balls, &directions), exhaust(small, 0.0, &balls, &directions));
+    eprintln!("{full:?}, without: {none:?}");
+    assert_eq!(full.wrong, 0, "{:?}", full.first);
+    assert!(
+        none.wrong > full.roots / 3,
+        "of {} roots {} lie elsewhere without a bound",
+        full.roots,
+        none.wrong
+    );
+}

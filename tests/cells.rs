@@ -105,3 +105,27 @@ fn a_plane_in_the_wrong_place_is_found_out() {
         }
     }
 }
+
+/// Cells are equally wide: each plane lies where the axis is divided, but for the roundings of the map, three of what an end is and one of
+/// the plane itself.
+#[test]
+fn planes_divide_the_axis_evenly() {
+    let mut judged = 0;
+    // The others have cells of no width in f32.
+    for (name, lo, hi, n) in directed() {
+        let axis = Axis::new(Scalar, lo, hi, n);
+        if axis.n == 1 || !axis.inverse.is_normal() {
+            continue;
+        }
+        let [from, to] = [lo, hi].map(f64::from);
+        let slack = 4.0 * (from.abs() + to.abs()) / f64::from(1u32 << 23);
+        for (i, plane) in (0..).zip(&axis.planes) {
+            let even = from + (to - from) * f64::from(i) / f64::from(n);
+            let off = (f64::from(*plane) - even).abs();
+            assert!(off <= slack, "{name}: plane {i} at {plane:e} is {off:e} from {even:e}");
+            judged += 1;
+        }
+    }
+    eprintln!("{judged} planes");
+    assert!(judged > 800, "too little was at stake");
+}

@@ -1,11 +1,13 @@
 //! Is the certified arithmetic right where decisions are close, and is each of its stages needed? Directed rays against the exact
 //! reference, every stage reached; each stage alone against what it must not say.
 
-use contract::{DEFAULT_LIGHT, Scene};
+use contract::{DEFAULT_LIGHT, Scene, Sphere};
+use num_bigint::{BigInt, Sign};
 use optimized::bound::{Bound, NEAREST, Rule};
 use optimized::camera::Block;
 use optimized::double::{self, Answer};
 use optimized::host::{Scalar, Work};
+use optimized::integer::Wide;
 use optimized::machine::{LANES, Machine};
 use optimized::seen::{Counts, Seen, Worker};
 use optimized::sphere::NONE;
@@ -174,4 +176,79 @@ fn rounding_alone_is_not_enough() {
         wrong += u32::from(given != truth(&case.ray, &scene));
     }
     assert!(wrong > 100, "{wrong} of 2,000 wrong, CGT_SEED={seed}");
+}
+
+/// t halfway between two f32 goes to the one whose last bit is 0, by the integers and by all stages together.
+#[test]
+fn ties_of_t_go_to_even() {
+    let two24 = 16_777_216.0f32;
+    let (eye, dir) = ([0.0; 3], [0.0, 0.0, 1.0]);
+    for (radius, t) in [(two24 - 1.0, two24), (two24 - 3.0, two24 + 4.0)] {
+        let sphere = Sphere { center: [0.0, 0.0, 2.0 * two24], radius, color: [9; 3] };
+        assert_eq!(exact::nearest(eye, dir, std::iter::once((0, &sphere))), Some((0, t)), "radius {radius}");
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("valid");
+        let seen = Seen::without_grid(Scalar, Plan::fast(), scene.spheres(), eye);
+        for level in Level::available() {
+            let (found, id, counts) = level.run(Trace(&seen, &scene, dir.map(|d| [d; LANES])));
+            assert_eq!((found[0], id[0]), (t, 0), "{level}, radius {radius}");
+            assert!(counts.rounded_by_integers + counts.asked_integers > 0, "{level}: {counts:?}");
+        }
+    }
+}
+
+/// The number with these limbs, the lowest first, in both libraries. Pieces do not overlap, so no sum carries.
+fn both(limbs: &[u64], negative: bool) -> (Wide, BigInt) {
+    let (mut wide, mut big) = (Wide::ZERO, BigInt::ZERO);
+    for (i, limb) in (0u32..).zip(limbs) {
+        for (half, shift) in [(limb & 0xffff_ffff, 64 * i), (limb >> 32, 64 * i + 32)] {
+            let half = i64::try_from(half).expect("32 bits");
+            wide = wide.add(&Wide::new(half, shift));
+            big += BigInt::from(half) << shift;
+        }
+    }
+    if negative { (wide.negated(), -big) } else { (wide, big) }
+}
+
+/// That number in the integers of `optimized`.
+fn wide(big: &BigInt) -> Wide {
+    let (sign, limbs) = big.to_u64_digits();
+    both(&limbs, sign == Sign::Minus).0
+}
+
+/// Sums, differences and products of integers whose limbs are all zeros, all ones, the same in both, or anything, up to the capacity.
+#[test]
+fn whole_numbers_are_those_of_another_library() {
+    let (seed, cases) = (seed(), count("CGT_WIDE_CASES", 30_000));
+    eprintln!("CGT_SEED={seed}, {cases} pairs");
+    let each = (0..cases).into_par_iter().map(|i| {
+        let mut rng = generator(seed, i);
+        let limb = |rng: &mut _| match RngExt::random_range(rng, 0..4) {
+            0 => 0,
+            1 => u64::MAX,
+            2 => 1u64 << RngExt::random_range(rng, 0..64),
+            _ => RngExt::random(rng),
+        };
+        let lengths = [rng.random_range(0..=14), rng.random_range(0..=14)];
+        let mut x: Vec<u64> = (0..lengths[0]).map(|_| limb(&mut rng)).collect();
+        let y: Vec<u64> = (0..lengths[1]).map(|_| limb(&mut rng)).collect();
+        for (x, y) in x.iter_mut().zip(&y) {
+            *x = if rng.random_range(0..3) == 0 { *y } else { *x };
+        }
+        let ((p, a), (q, b)) = (both(&x, rng.random()), both(&y, rng.random()));
+        for (what, found, expected) in
+            [("sum", p.add(&q), &a + &b), ("difference", p.sub(&q), &a - &b), ("product", p.mul(&q), &a * &b)]
+        {
+            // A product takes up the limbs in use alone.
+            let off = found.mul(&Wide::new(1, 0)).sub(&wide(&expected)).sign();
+            let signs = (found.sign(), expected.cmp(&BigInt::ZERO));
+            assert!(
+                off.is_eq() && signs.0 == signs.1,
+                "{what} of {x:x?} and {y:x?}: {signs:?}, CGT_SEED={seed}"
+            );
+        }
+        u64::from(lengths == [14, 14])
+    });
+    let full: u64 = each.sum();
+    eprintln!("{full} products as long as there is room");
+    assert!(full > cases / 1000, "too little was at stake");
 }

@@ -2,10 +2,11 @@
 //! known by construction.
 
 use contract::{DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
+use rand::RngExt;
 use rayon::prelude::*;
 use reference::{Arithmetic, Ray, Tracer, Undecided};
 use std::collections::BTreeMap;
-use verify::directed::{KINDS, Kind, case};
+use verify::directed::{KINDS, Kind, aimed, case};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::seed::{count, generator, seed};
@@ -73,7 +74,10 @@ fn threads_change_nothing() {
     let loaded = Source::parse("clump:300:9").and_then(|source| source.load()).expect("generated");
     let size = Some(Size::new(67, 45).expect("small"));
     let camera = Framing { size, ..Framing::default() }.camera(&loaded.animation).expect("in view");
-    let scene = &loaded.animation.frames()[0];
+    // Each sphere twice, so that orders are left undecided, and their number must not depend on threads either.
+    let frame = &loaded.animation.frames()[0];
+    let spheres = [frame.spheres(), frame.spheres()].concat();
+    let scene = &Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
     for arithmetic in [
         Arithmetic::Exact,
         Arithmetic::F64,
@@ -86,6 +90,7 @@ fn threads_change_nothing() {
             |threads| Tracer::new(arithmetic).threads(threads).render(scene, &camera).expect("small");
         let one = render(1);
         assert!(one.image.ids.iter().any(|&id| id != MISS), "nothing is seen");
+        assert!(arithmetic != Arithmetic::Exact || one.undecided.orders > 100, "{:?}", one.undecided);
         for threads in [0, 2, 3, 8] {
             let other = render(threads);
             let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
@@ -127,4 +132,24 @@ fn f64_is_exact_on_the_lattice() {
             assert_eq!(Some(hit), case.known, "case {i} of CGT_SEED={seed}: {case:?}");
         }
     }
+}
+
+/// Rays within a part in 10¹⁰ of a radius of the rim of spheres 10⁵ to 10⁷ radii away, where f64 alone calls some hits misses.
+#[test]
+fn the_filter_needs_its_bound_far_away() {
+    let (seed, cases) = (seed(), count("CGT_FAR_CASES", 100_000));
+    let each = (0..cases).into_par_iter().map(|i| {
+        let mut rng = generator(seed, i);
+        let distance = 10f64.powf(rng.random_range(5.0..7.0));
+        let impact = 1.0 + distance * distance * 1e-16 * rng.random_range(-4.0..4.0);
+        let case = aimed(distance, impact, &mut rng);
+        let scene = Scene::new(case.spheres[..1].to_vec(), [0; 3], DEFAULT_LIGHT).expect("a sphere");
+        let trace = |arithmetic| Tracer::new(arithmetic).trace(&case.ray, &scene);
+        let (exact, unfiltered) = (trace(Arithmetic::Exact), trace(Arithmetic::ExactUnfiltered));
+        assert_eq!(exact, unfiltered, "filtered, unfiltered; case {i} of CGT_SEED={seed}: {case:?}");
+        [u64::from(exact.is_some()), u64::from(exact.is_some() != trace(Arithmetic::F64).is_some())]
+    });
+    let [hits, differ] = each.reduce(|| [0; 2], |x, y| [x[0] + y[0], x[1] + y[1]]);
+    eprintln!("CGT_SEED={seed}: {cases} rays, {hits} hits, f64 differs in {differ}");
+    assert!(hits > cases / 10 && hits < cases * 9 / 10 && differ > 20, "too little was at stake");
 }

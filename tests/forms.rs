@@ -5,10 +5,16 @@
 //! either way on the textbook form; the spread of the disc enters its share of wrong rays, and not its median error.
 
 use contract::{DEFAULT_LIGHT, Scene};
+use optimized::camera::Block;
+use optimized::host::{Scalar, Work};
+use optimized::machine::Machine;
+use optimized::seen::{Seen, Worker};
+use optimized::sphere::NONE;
+use optimized::{Form, Level, Plan};
 use rand::RngExt;
 use rayon::prelude::*;
 use reference::{Arithmetic, Hit, Ray, Tracer};
-use verify::directed::aimed;
+use verify::directed::{KINDS, aimed, case};
 use verify::seed::{count, generator, seed};
 
 const SPREAD: f64 = 1.7;
@@ -96,4 +102,57 @@ fn shoot(distance: f64, seed: u64, i: u64) -> Shot {
 
 fn length(ray: &Ray) -> f64 {
     ray.dir.iter().map(|&x| f64::from(x) * f64::from(x)).sum::<f64>().sqrt()
+}
+
+/// One ray in all lanes by a form's kernel, at some level and without a grid.
+struct Kernel<'a>(&'a Seen, &'a Scene, [f32; 3]);
+
+impl Work for Kernel<'_> {
+    type Output = Option<(u32, u32)>;
+
+    fn on<M: Machine + Send + Sync>(self, m: M) -> Self::Output {
+        let Self(seen, scene, dir) = self;
+        let block = Block::new(m, dir.map(|d| m.splat(d)));
+        let mut worker = Worker::default();
+        let answers = m.within(|| seen.trace(m, scene.spheres(), &block, None, &mut worker));
+        let (id, t) = (m.to_array_i(answers.owners.id)[0], m.to_array(answers.t)[0]);
+        (id != NONE).then(|| (id.unsigned_abs(), t.to_bits()))
+    }
+}
+
+/// Directed rays of every kind by the kernels of `optimized`: tangents, ties, eyes on surfaces, and t beyond f32 come out as the contract
+/// rounds them.
+#[test]
+fn kernels_are_the_naive_forms_where_decisions_are_close() {
+    let (seed, cases, levels) = (seed(), count("CGT_FORM_CASES", 60_000), Level::available());
+    eprintln!("CGT_SEED={seed}, {cases} rays");
+    let forms =
+        [(Form::Textbook, Arithmetic::F32Textbook), (Form::Perpendicular, Arithmetic::F32Perpendicular)];
+    let judge = |i: u64| {
+        let at = usize::try_from(i).expect("few");
+        let case = case(KINDS[at % KINDS.len()], &mut generator(seed, i));
+        let scene = Scene::new(case.spheres.clone(), [0; 3], DEFAULT_LIGHT).expect("valid by construction");
+        let level = levels[at / KINDS.len() % levels.len()];
+        forms.map(|(form, naive)| {
+            let plan = Plan { arithmetic: form.into(), ..Plan::safe() };
+            let seen = Seen::without_grid(Scalar, plan, scene.spheres(), case.ray.eye);
+            let given = level.run(Kernel(&seen, &scene, case.ray.dir));
+            let expected = Tracer::new(naive).trace(&case.ray, &scene).map(|hit| (hit.id, hit.t.to_bits()));
+            assert_eq!(
+                expected, given,
+                "naive, kernel; {form:?} at {level}, case {i} of CGT_SEED={seed}: {case:?}"
+            );
+            [
+                u64::from(given.is_some()),
+                u64::from(given.is_some_and(|(_, t)| f32::from_bits(t).is_infinite())),
+            ]
+        })
+    };
+    let sum = |x: [[u64; 2]; 2], y: [[u64; 2]; 2]| [0, 1].map(|f| [0, 1].map(|i| x[f][i] + y[f][i]));
+    let hits = (0..cases).into_par_iter().map(judge).reduce(|| [[0; 2]; 2], sum);
+    eprintln!("of each form hits, and of these at an infinite t: {hits:?}");
+    assert!(
+        hits.iter().all(|[hits, infinite]| *hits > cases / 4 && *infinite > 0),
+        "too little was at stake"
+    );
 }

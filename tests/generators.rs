@@ -1,7 +1,13 @@
 //! Do generated scenes have the spheres they promise, the same on every machine, and refuse what is too much?
 
 use contract::{MAX_SPHERES, Scene};
+use rand::Rng;
+use std::collections::HashSet;
+use std::process::Command;
+use verify::directed::{Case, Kind, case};
+use verify::judge::compare::ulps_apart;
 use verify::scenes::generate::{GenerateError, Generator};
+use verify::seed::{VARIABLE, generator, seed};
 
 fn make(generator: Generator) -> Scene {
     generator.scene().unwrap_or_else(|e| panic!("{generator}: {e}"))
@@ -137,4 +143,79 @@ fn too_much_is_refused_before_memory_is_taken() {
 fn ten_million_spheres_are_made() {
     let scene = make(Generator::Uniform { count: 10_000_000, seed: 5 });
     assert_eq!(scene.spheres().len(), 10_000_000);
+}
+
+/// What one user draws is neither what another draws nor what another seed gives, and comes again with both.
+#[test]
+fn streams_and_seeds_differ() {
+    let first = |seed, stream| generator(seed, stream).next_u64();
+    let of_streams: HashSet<u64> = (0..1000).map(|stream| first(7, stream)).collect();
+    let of_seeds: HashSet<u64> = (0..1000).map(|seed| first(seed, 7)).collect();
+    assert_eq!((of_streams.len(), of_seeds.len()), (1000, 1000));
+    assert_eq!(first(7, 9), first(7, 9));
+}
+
+/// Says which seed it has; run by the next test.
+#[test]
+fn the_seed_is_told() {
+    eprintln!("the seed is {};", seed());
+}
+
+/// A fresh seed for every run, and the one that is asked for.
+#[test]
+fn a_seed_is_fresh_unless_it_is_set() {
+    let told = |set: Option<&str>| {
+        let mut child = Command::new(std::env::current_exe().expect("this program"));
+        child.args(["--exact", "the_seed_is_told", "--nocapture"]).env_remove(VARIABLE);
+        let output = child.envs(set.map(|seed| (VARIABLE, seed))).output().expect("it runs");
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        let (_, rest) = said.split_once("the seed is ").unwrap_or_else(|| panic!("{said}"));
+        rest.split(';').next().and_then(|seed| seed.parse::<u64>().ok()).expect("a seed")
+    };
+    assert_ne!(told(None), told(None));
+    assert_eq!([told(Some("17")), told(Some("18446744073709551615"))], [17, u64::MAX]);
+}
+
+/// All numbers of a case.
+fn numbers(case: &Case) -> Vec<f32> {
+    let spheres = case.spheres.iter().flat_map(|s| [s.center[0], s.center[1], s.center[2], s.radius]);
+    case.ray.eye.into_iter().chain(case.ray.dir).chain(spheres).collect()
+}
+
+/// A case that is near one of the lattice differs from it in one number, by 1 to 3 steps.
+#[test]
+fn near_cases_are_near() {
+    let pairs = [
+        (Kind::Tangent, Kind::NearTangent),
+        (Kind::OnSurface, Kind::NearSurface),
+        (Kind::EqualRoots, Kind::NearEqualRoots),
+    ];
+    let seed = seed();
+    let mut steps = [0u64; 4];
+    for (on, near) in pairs {
+        for i in 0..2_000 {
+            let [on, near] = [on, near].map(|kind| case(kind, &mut generator(seed, i)));
+            let (on, near) = (numbers(&on), numbers(&near));
+            assert_eq!(on.len(), near.len());
+            let moved: Vec<u64> =
+                on.iter().zip(&near).map(|(x, y)| ulps_apart(*x, *y)).filter(|n| *n > 0).collect();
+            let [n] = moved[..] else { panic!("{moved:?} moved, case {i} of CGT_SEED={seed}") };
+            steps[usize::try_from(n).expect("few").min(3)] += u64::from((1..=3).contains(&n));
+        }
+    }
+    eprintln!("moved by 1, 2, 3 steps: {:?}", &steps[1..]);
+    assert!(steps[1..].iter().sum::<u64>() == 6_000 && steps[1..].iter().all(|n| *n > 1_000), "{steps:?}");
+}
+
+/// Directed rays go along all axes, both ways.
+#[test]
+fn directed_cases_look_everywhere() {
+    let (seed, mut ways) = (seed(), [[0u64; 2]; 3]);
+    for i in 0..6_000 {
+        let dir = case(Kind::Inside, &mut generator(seed, i)).ray.dir;
+        let axis = (0..3).max_by(|&i, &j| dir[i].abs().total_cmp(&dir[j].abs())).expect("three");
+        ways[axis][usize::from(dir[axis] > 0.0)] += 1;
+    }
+    eprintln!("backward and forward along each axis: {ways:?}");
+    assert!(ways.as_flattened().iter().all(|n| *n > 600), "CGT_SEED={seed}: {ways:?}");
 }

@@ -3,13 +3,13 @@
 
 use contract::{AMBIENT, Camera, DIFFUSE, Image, MISS, Scene, Size, Sphere};
 use optimized::plan::{Arithmetic, Cells, Culling, Loop, OnEvent, Plan, Resolution, Sharing, Voxelizer};
-use optimized::{Event, Form, Level, Tracer};
+use optimized::{Event, Events, Form, Level, Tracer};
 use rayon::prelude::*;
 use reference::Arithmetic as Naive;
 use std::collections::BTreeMap;
 use std::io::Write;
 use verify::matrix::{Case, Matrix};
-use verify::scenes::catalogue::Source;
+use verify::scenes::catalogue::{DATA_VARIABLE, ENTRIES, Source};
 
 fn matrix() -> Matrix {
     let matrix = Matrix::new().expect("all data that is there can be read");
@@ -224,7 +224,8 @@ fn every_event_is_told() {
     assert_eq!(refused, optimized::RenderError::Refused(Event::OutOfRange));
     let corners =
         Plan { voxelizer: Voxelizer::EightCorners, resolution: Resolution::Fixed(8), ..Plan::safe() };
-    let spheres = vec![ball([0.0; 3], 1.0), ball([4.0; 3], 0.01), ball([1.0; 3], 1.0)];
+    // The last one's box spans three cells of 0.63 on each axis, no more.
+    let spheres = vec![ball([0.0; 3], 1.0), ball([4.0; 3], 0.01), ball([1.0; 3], 1.0), ball([1.8; 3], 0.4)];
     let events = render(corners, spheres).expect("falls back").events;
     let told: Vec<u32> = events
         .first()
@@ -234,7 +235,7 @@ fn every_event_is_told() {
             _ => None,
         })
         .collect();
-    assert_eq!(told, [0, 2]);
+    assert_eq!(told, [0, 2, 3]);
 }
 
 /// A grid chosen for eight corners has cells wider than any sphere's box.
@@ -317,4 +318,77 @@ fn both_loops_do_the_same_work() {
         cases > 60 && candidates > 100_000,
         "too little was at stake: {cases} cases, {candidates} candidates"
     );
+}
+
+/// Of many events the first are kept, and all are counted.
+#[test]
+fn more_events_are_counted_than_kept() {
+    let mut events = Events::default();
+    for sphere in 0..12_345 {
+        events.push(Event::SpansCells { sphere, axis: 0, cells: 3 });
+    }
+    assert_eq!((events.count(), events.first().len()), (12_345, Events::KEPT));
+    let last = u32::try_from(Events::KEPT - 1).expect("few");
+    assert!(matches!(events.first().last(), Some(Event::SpansCells { sphere, .. }) if *sphere == last));
+}
+
+/// The axis along which the middle of a picture is looked at, and the sense.
+fn looks(camera: &Camera) -> (usize, bool) {
+    let [width, height] = [camera.size().width(), camera.size().height()].map(|n| n as f32 / 2.0);
+    let d: [f32; 3] =
+        std::array::from_fn(|i| camera.corner()[i] + width * camera.du()[i] + height * camera.dv()[i]);
+    let axis = (0..3).max_by(|&i, &j| d[i].abs().total_cmp(&d[j].abs())).expect("three");
+    (axis, d[axis] > 0.0)
+}
+
+/// Nothing that the matrix is there for has been lost from it: sizes, views along all axes, eyes within spheres, and twins.
+#[test]
+fn the_matrix_has_all_that_can_go_wrong() {
+    let matrix = matrix();
+    let mut views: BTreeMap<(usize, bool), u64> = BTreeMap::new();
+    let mut sizes: BTreeMap<[u32; 2], u64> = BTreeMap::new();
+    let (mut within, mut twins) = (0, 0);
+    for Case { name, scene, camera } in &matrix.cases {
+        *views.entry(looks(camera)).or_default() += 1;
+        *sizes.entry([camera.size().width(), camera.size().height()]).or_default() += 1;
+        let inside = |s: &Sphere| {
+            let squares = (0..3).map(|i| (f64::from(s.center[i]) - f64::from(camera.eye()[i])).powi(2));
+            squares.sum::<f64>() < f64::from(s.radius).powi(2)
+        };
+        within += u64::from(scene.spheres().iter().any(inside));
+        let mut bits: Vec<[u32; 4]> = (scene.spheres().iter())
+            .map(|s| [s.center[0], s.center[1], s.center[2], s.radius].map(f32::to_bits))
+            .collect();
+        let all = bits.len();
+        bits.sort_unstable();
+        bits.dedup();
+        twins += u64::from(name.starts_with("coincident") && 2 * bits.len() == all);
+    }
+    eprintln!("views {views:?}, sizes {sizes:?}, {within} eyes within a sphere, {twins} scenes of twins");
+    assert!(views.len() == 6 && views.values().all(|n| *n > 15), "{views:?}");
+    let odd = sizes.iter().filter(|([w, h], _)| w % 4 != 0 || h % 4 != 0).map(|(_, n)| n).sum::<u64>();
+    assert!(sizes.len() >= 6 && odd > 300, "{sizes:?}");
+    assert!(
+        sizes.contains_key(&[1, 1]) && sizes.keys().any(|[w, h]| w > h) && sizes.keys().any(|[w, h]| w < h)
+    );
+    assert!(within > 10 && twins >= 17, "{within} eyes within, {twins} scenes of twins");
+}
+
+/// Makes the matrix and no more; run by the next test where there is no data.
+#[test]
+fn the_matrix_is_made() {
+    assert!(matrix().cases.len() > 100);
+}
+
+/// Scenes whose data is not there are named, so that nobody takes them for judged.
+#[test]
+fn the_matrix_says_what_it_lacks() {
+    let mut child = std::process::Command::new(std::env::current_exe().expect("this program"));
+    child.args(["--exact", "the_matrix_is_made", "--nocapture"]).env(DATA_VARIABLE, "no-such-folder");
+    let output = child.output().expect("it runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    let told = |name: &str| said.contains(&format!("not judged: {name}: data absent"));
+    let absent: Vec<&str> = ENTRIES.iter().map(|entry| entry.name).filter(|name| told(name)).collect();
+    eprintln!("absent: {absent:?}");
+    assert!(output.status.success() && absent.len() >= 6 && !absent.contains(&"1hvr"), "{said}");
 }

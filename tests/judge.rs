@@ -176,7 +176,10 @@ fn t_is_summed_up_by_rank() {
             image.t[i] = image.t[i].next_up();
         }
     }
-    let t = compare(&bench.truth, &image).expect("same shape").t_ulp;
+    let comparison = compare(&bench.truth, &image).expect("same shape");
+    let moved = (0..hits.len()).filter(|n| n % 100 > 0).count();
+    assert_eq!(comparison.wrong_t, moved as u64, "a step is a difference");
+    let t = comparison.t_ulp;
     assert_eq!(t.count, hits.len() as u64);
     assert!((48..=50).contains(&t.median) && (97..=99).contains(&t.p99) && t.max == 99, "{t:?}");
 }
@@ -236,4 +239,62 @@ fn bands_are_narrow_close_by() {
         let beside = band(rounding, &ray, &ball(1.0001)).expect("in range");
         assert_eq!((beside.must_hit, beside.may_hit), (None, None), "{rounding:?}");
     }
+}
+
+/// Of faults that are equally grave the first in row order is told, whichever the others are.
+#[test]
+fn the_first_of_equal_faults_is_told() {
+    let bench = Bench::new();
+    type Spoil = fn(&mut Image, usize);
+    let grades: [Spoil; 3] =
+        [|image, i| image.rgba[i][2] ^= 1, |image, i| image.t[i] = 0.5, |image, i| image.ids[i] = 77];
+    let mut image = bench.truth.clone();
+    for (grade, spoil) in grades.into_iter().enumerate() {
+        let place =
+            |i: usize| Some([u32::try_from(i % 96).expect("small"), u32::try_from(i / 96).expect("small")]);
+        let first = 300 + 7 * grade;
+        for i in [5_000, first, 4_000] {
+            spoil(&mut image, i);
+        }
+        assert_eq!(
+            compare(&bench.truth, &image).expect("same shape").first_wrong,
+            place(first),
+            "grade {grade}"
+        );
+    }
+}
+
+/// A picture that promises to be the naive one and is not, in the last bit of one t, is wrong, although rounding would explain it.
+#[test]
+fn a_twin_differs_by_one_t() {
+    let bench = Bench::new();
+    for rounding in FORMS {
+        let naive = bench.naive(rounding);
+        let mut image = naive.clone();
+        let i = bench.pixel(true);
+        image.t[i] = image.t[i].next_up();
+        let rounded = bench.judge(&image, Promise::Rounded(rounding), None);
+        // In f64 nothing but the rounding of t at the end is open.
+        let explained = [Verdict::Equal, Verdict::WithinBound].contains(&rounded.verdict);
+        assert!(explained || rounding == Rounding::TextbookF64, "{rounding:?}: {rounded:?}");
+        let judgement = bench.judge(&image, Promise::EqualToNaive(rounding), Some(&naive));
+        assert_eq!(judgement.verdict, Verdict::Wrong, "{rounding:?}: {judgement:?}");
+    }
+}
+
+/// Where a form states nothing, a difference is no agreement and no error either.
+#[test]
+fn what_the_form_states_nothing_of_is_undecidable() {
+    let ball = Sphere { center: [0.0; 3], radius: 1e-30, color: [9; 3] };
+    let scene = Scene::new(vec![ball], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(8, 8).expect("small");
+    let camera = Camera::new([0.0, 0.0, 1e-29], [-0.2, 0.2, -1.0], [0.05, 0.0, 0.0], [0.0, -0.05, 0.0], size);
+    let camera = camera.expect("a camera");
+    let truth = Tracer::new(Arithmetic::Exact).render(&scene, &camera).expect("small").image;
+    let nothing = Image::new(size, [0; 3]).expect("small");
+    let hits = truth.ids.iter().filter(|id| **id != MISS).count() as u64;
+    let judgement = judge(&scene, &camera, &truth, &nothing, Promise::Rounded(Rounding::TextbookF32), None);
+    let unstated = judgement.comparison.as_ref().map(|c| (c.undecidable, c.unexplained));
+    assert_eq!((judgement.verdict, unstated), (Verdict::Undecidable, Some((hits, 0))), "{judgement:?}");
+    assert!(hits > 4);
 }

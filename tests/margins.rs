@@ -7,7 +7,7 @@
 
 use contract::{Camera, Size};
 use optimized::frustum::Heading;
-use optimized::machine::LANES;
+use optimized::machine::{LANES, Machine};
 use rayon::prelude::*;
 use verify::bounds::Whole;
 use verify::margins::{Judged, Place, Trial};
@@ -316,4 +316,38 @@ fn the_side_of_the_eye_is_right() {
     });
     assert_eq!(full.inputs, (balls.len() * 5 * LANES * 2) as u64);
     assert!(full.demanded > full.inputs / 3 && full.dropped > full.inputs / 10, "{full:?}");
+}
+
+/// x rounded to so many bits by whole numbers alone: halves to even, or cut off.
+fn rounded(x: i64, bits: u32, mode: Mode) -> i64 {
+    let size = x.unsigned_abs();
+    let drop = (u64::BITS - size.leading_zeros()).saturating_sub(bits);
+    let (kept, rest, half) = (size >> drop, size & ((1 << drop) - 1), (1u64 << drop) / 2);
+    let up = mode == Mode::Nearest && drop > 0 && (rest > half || (rest == half && kept % 2 == 1));
+    ((kept + u64::from(up)) << drop).cast_signed() * x.signum()
+}
+
+/// The judge's own machine: sums, differences and products of all floats of 4 bits up to 60.
+#[test]
+fn floats_of_few_bits_are_rounded_as_they_say() {
+    let mut judged = [0u64; 2];
+    for mode in [Mode::Nearest, Mode::Truncating] {
+        let m = Small { bits: 4, mode };
+        let floats: Vec<i64> = (-60..=60).filter(|&x| rounded(x, 4, mode) == x).collect();
+        for &x in &floats {
+            for &y in &floats {
+                #[allow(clippy::cast_precision_loss, reason = "small")]
+                let [p, q] = [x, y].map(|x| m.splat(x as f32));
+                for (found, exact) in [(m.add(p, q), x + y), (m.sub(p, q), x - y), (m.mul(p, q), x * y)] {
+                    let expected = rounded(exact, 4, mode);
+                    #[allow(clippy::cast_possible_truncation, reason = "whole numbers")]
+                    let found = found[0] as i64;
+                    assert_eq!(found, expected, "{mode:?}: {exact} of {x} and {y}");
+                    judged[usize::from(expected != exact)] += 1;
+                }
+            }
+        }
+    }
+    eprintln!("{judged:?} exact results and others");
+    assert!(judged.iter().all(|n| *n > 5_000));
 }

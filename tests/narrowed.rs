@@ -151,3 +151,21 @@ fn planted_faults_are_found() {
         assert_eq!(y as usize * 64 + x as usize, seen, "{what} was found elsewhere");
     }
 }
+
+/// A sphere that is kept for every tile, and one of a higher id that touches it from within where the middle ray meets both at once.
+#[test]
+fn ties_with_what_is_everywhere_go_to_the_lowest_id() {
+    let large = Sphere { center: [0.0, 0.0, -60.0], radius: 50.0, color: [9; 3] };
+    let within = Sphere { center: [0.0, 0.0, -11.0], radius: 1.0, color: [99; 3] };
+    let scene = Scene::new(vec![large, within], [0; 3], DEFAULT_LIGHT).expect("a scene");
+    let (step, half) = (1.0 / 64.0, 80.5 / 64.0);
+    let camera = Camera::new(
+        [0.0; 3],
+        [-half, half, -1.0],
+        [step, 0.0, 0.0],
+        [0.0, -step, 0.0],
+        Size::new(161, 161).expect("a size"),
+    );
+    let image = agree("a tie with what is everywhere", &scene, &camera.expect("a camera"));
+    assert_eq!((image.ids[80 * 161 + 80], image.t[80 * 161 + 80]), (0, 10.0), "the middle ray");
+}

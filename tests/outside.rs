@@ -170,3 +170,23 @@ fn silence_is_counted() {
     assert_eq!((hearing.not_stated[0], hearing.verdict()), (256, Verdict::NotJudged), "{hearing:?}");
     assert!(hearing.not_stated[1] > 0, "f32 underflows here");
 }
+
+/// A witness that sees a sphere behind the one that must be hit is wrong, with the right t of the wrong sphere.
+#[test]
+fn who_sees_through_a_sphere_is_wrong() {
+    let ball = |z: f32| Sphere { center: [0.0, 0.0, z], radius: 1.0, color: [9; 3] };
+    let scene = |balls: &[Sphere]| Scene::new(balls.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let framing = Framing { eye: Some([0.0, 0.0, -9.0]), ..sized(64, 64) };
+    let bench = Bench::new(scene(&[ball(0.0), ball(5.0)]), &framing);
+    let far = Tracer::new(Arithmetic::F32Perpendicular).render(&scene(&[ball(5.0)]), &bench.camera);
+    let far = far.expect("small").image;
+    let hearing = bench.hear(|image| {
+        for (i, id) in far.ids.iter().enumerate().filter(|(_, id)| **id != MISS) {
+            (image.ids[i], image.t[i]) = (id + 1, far.t[i]);
+        }
+    });
+    let through =
+        far.ids.iter().zip(&bench.truth.ids).filter(|(far, id)| **far == 0 && **id == 0).count() as u64;
+    assert_eq!(hearing.outside + hearing.beyond, through, "{hearing:?}");
+    assert!(through > 40 && hearing.verdict() == Verdict::Wrong, "{hearing:?}");
+}

@@ -272,3 +272,16 @@ fn opaque(fault: Fault) -> [u8; 4] {
     let [r, g, b] = fault_color(fault);
     [r, g, b, 255]
 }
+
+/// The first panel is the truth, the second the subject: with other colours everywhere neither can be taken for the other.
+#[test]
+fn each_panel_shows_its_own_picture() -> Outcome {
+    let truth = plain(640, 40)?;
+    let mut subject = truth.clone();
+    subject.rgba.fill([1, 2, 3, 255]);
+    let whole = triptych(&truth, &subject)?;
+    // Far from the mark of the first wrong pixel.
+    let at = |panel: u32| whole.get_pixel(panel * (640 + GAP) + 600, 30).0;
+    assert_eq!([at(0), at(1), at(2)], [[40, 50, 60, 255], [1, 2, 3, 255], opaque(Fault::Color)]);
+    Ok(())
+}

@@ -128,8 +128,12 @@ fn operations_are_those_of_the_host() {
     let mut terms = Terms::default();
     let (mut wanted, mut cases) = (Vec::new(), Vec::new());
     for op in Op::ALL {
-        for _ in 0..CASES {
-            let operands: Vec<u32> = op.takes().iter().map(|sort| any_bits(*sort, &mut rng)).collect();
+        for case in 0..CASES {
+            let mut operands: Vec<u32> = op.takes().iter().map(|sort| any_bits(*sort, &mut rng)).collect();
+            // Every third pair is equal: there < and <= differ.
+            if case % 3 == 0 && op.takes().len() == 2 {
+                operands[1] = operands[0];
+            }
             let expected = on_scalar(op, &operands);
             let made: Vec<Term> = op
                 .takes()

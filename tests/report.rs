@@ -445,3 +445,40 @@ fn a_failed_report_has_no_page() -> Outcome {
     assert!(matches!(write(&below_a_file, &report, &pictures(&report)?), Err(ReportError::Folder { .. })));
     Ok(())
 }
+
+/// Who is heard and whom nobody is judged by is no run.
+#[test]
+fn witnesses_alone_are_no_run() -> Outcome {
+    let scene = scene("a", Vec::new())?;
+    assert!(!scene.outside.is_empty());
+    assert_eq!(
+        overall(&[SceneReport { outside: hearings()[..1].to_vec(), ..scene }], &[]),
+        Verdict::NotJudged
+    );
+    Ok(())
+}
+
+/// Each number of a comparison stands below its own heading.
+#[test]
+fn numbers_stand_in_their_columns() -> Outcome {
+    let mut report = report()?;
+    if let Some(comparison) = &mut report.scenes[0].subjects[0].comparison {
+        *comparison = Comparison {
+            wrong_ids: 11,
+            wrong_t: 222,
+            wrong_color: 33,
+            t_ulp: UlpSummary { median: 5, p99: 66, max: 777, ..UlpSummary::default() },
+            ..*comparison
+        };
+    }
+    let table = text(&report, false);
+    let lines: Vec<&str> = table.lines().collect();
+    let ends = |line: &str, word: &str| {
+        let at = line.find(word).unwrap_or_else(|| panic!("no {word} in {line:?}")) + word.len();
+        textwrap::core::display_width(&line[..at])
+    };
+    for (heading, number) in [(" ids", " 11"), (" t", " 222"), ("colour", " 33"), ("ulp max", " 777")] {
+        assert_eq!(ends(lines[0], heading), ends(lines[1], number), "{heading}:\n{}\n{}", lines[0], lines[1]);
+    }
+    Ok(())
+}

@@ -947,6 +947,30 @@ fn repeats_of_one_sphere_are_all_but_the_first() {
     assert!(most >= 3, "no packet met it often");
 }
 
+/// With many packets too: all blocks of a picture as small as a point meet the sphere as often as the first does.
+#[test]
+fn repeats_do_not_end_with_many_packets() {
+    let sphere = Sphere { center: [0.0; 3], radius: 1.0, color: [9; 3] };
+    let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("a scene");
+    let plan = Plan {
+        voxelizer: Voxelizer::BoxRange,
+        culling: Culling::None,
+        resolution: Resolution::Fixed(6),
+        ..Plan::paper()
+    };
+    let counted = |side: u32| {
+        let size = Size::new(side, side).expect("a size");
+        let camera =
+            Camera::new([0.0, 0.0, 4.0], [-0.9, -0.9, -4.0], [1e-5, 0.0, 0.0], [0.0, 1e-5, 0.0], size);
+        let model = measured(plan, &scene, &camera.expect("it has an area"), 1);
+        [model.trace.packets, model.trace.fetched, model.trace.repeats]
+    };
+    let [_, fetched, repeats] = counted(4);
+    eprintln!("a packet fetches {fetched}, of which {repeats} again");
+    assert_eq!(counted(80), [400, 400 * fetched, 400 * repeats]);
+    assert!(repeats > 1);
+}
+
 /// Balls and cells by hand. A ball of radius 0.1 whose centre is 0.065 from a corner of cells on each axis meets all eight but the
 /// opposite one, since 0.065 √2 < 0.1 < 0.065 √3. One of radius 1.6 about the middle of 4x4x4 unit cells meets all but the eight at
 /// the corners, and these are the ones in which eight corners list it.

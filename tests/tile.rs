@@ -1,7 +1,7 @@
 //! Tiles: are no hits lost between a sphere's outline and the rays, is the short way to t within its bound, and is every picture the
 //! exact one, whatever the tile, the grid and the frame before?
 
-use contract::{Camera, DEFAULT_LIGHT, Image, Scene, Size, Sphere};
+use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use optimized::crew::Crew;
 use optimized::double::{short_ends, short_error};
 use optimized::grid::{Grid, Memory};
@@ -238,6 +238,48 @@ fn a_frame_does_not_depend_on_the_one_before() {
         assert_equal(&fresh.image, &given.image, &|| case.name.clone());
         assert_eq!((&fresh.events, fresh.counts), (&given.events, given.counts), "{}", case.name);
     }
+}
+
+/// Frames of one size in one session, of as many spheres, of others, of none, before other backgrounds: what the one before left, on the
+/// image and in memory, is in none of them.
+#[test]
+fn frames_of_one_size_follow_each_other() {
+    let (seed, mut frames) = (seed(), Vec::new());
+    let mut rng = generator(seed, 0);
+    for i in 0..24u8 {
+        let count = [40, 40, 0, 3, 40, 300][usize::from(i) % 6];
+        let mut ball = || Sphere {
+            center: std::array::from_fn(|_| rng.random_range(-2.0f32..2.0)),
+            radius: rng.random_range(0.1f32..0.4),
+            color: std::array::from_fn(|_| rng.random()),
+        };
+        let spheres: Vec<Sphere> = (0..count).map(|_| ball()).collect();
+        let background = if i % 4 < 2 { [i, 2, 3] } else { [9; 3] };
+        let eye: [f32; 3] = [rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), 6.0];
+        let size = Size::new(61, 47).expect("a size");
+        let camera = Camera::new(eye, [-0.6, 0.5, -1.0], [0.02, 0.0, 0.0], [0.0, -0.02, 0.0], size);
+        let scene = Scene::new(spheres, background, DEFAULT_LIGHT).expect("valid");
+        frames.push((scene, camera.expect("a camera")));
+    }
+    let truths: Vec<Image> = frames.iter().map(|(scene, camera)| exact(scene, camera)).collect();
+    let best = Level::best().expect("a level");
+    for side in [2, 8, 32] {
+        for (level, workers) in [(best, 1), (best, 3), (Level::SCALAR, 2)] {
+            let plan = Plan { packet: Packet::Tile { side }, ..Plan::fast() };
+            let mut session = Tracer::new(plan, level).workers(workers).session().expect("memory");
+            for (i, ((scene, camera), truth)) in frames.iter().zip(&truths).enumerate() {
+                let given = session.render(scene, camera).expect("nothing to refuse");
+                assert_equal(truth, &given.image, &|| {
+                    format!("frame {i} of CGT_SEED={seed}; {plan}, {level}, {workers} workers")
+                });
+            }
+        }
+    }
+    let misses = truths.iter().map(|truth| truth.ids.iter().filter(|id| **id == MISS).count()).sum::<usize>();
+    assert!(
+        misses > truths.len() * 61 * 47 / 4 && misses < truths.len() * 61 * 47 * 9 / 10,
+        "{misses} misses"
+    );
 }
 
 #[test]

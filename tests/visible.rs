@@ -229,10 +229,11 @@ fn the_range_of_margins_ends_where_it_says() {
     let billion = (1u32 << 30) as f32;
     let size = Size::new(4, 4).expect("one block");
     let ball = |x: f32, radius: f32| vec![Sphere { center: [1.0, x, -3.0], radius, color: [9; 3] }];
-    let is = |spheres: &[Sphere], eye: f32, corner: [f32; 3], du: f32| {
+    let by = |arithmetic, spheres: &[Sphere], eye: f32, corner: [f32; 3], du: f32| {
         let camera = Camera::new([0.0, 0.0, eye], corner, [du, 0.0, 0.0], [0.0, -du, 0.0], size);
-        in_range(Arithmetic::Certified, spheres, &camera.expect("a camera"))
+        in_range(arithmetic, spheres, &camera.expect("a camera"))
     };
+    let is = |spheres: &[Sphere], eye, corner, du| by(Arithmetic::Certified, spheres, eye, corner, du);
     let ahead = [-0.5, 0.5, -1.0];
     for (inside, outside) in [
         (ball(billion, 1.0), ball(billion.next_up(), 1.0)),
@@ -243,9 +244,53 @@ fn the_range_of_margins_ends_where_it_says() {
         assert!(is(&inside, 0.0, ahead, 0.25), "{inside:?}");
         assert!(!is(&outside, 0.0, ahead, 0.25), "{outside:?}");
     }
+    // On the SPU spheres must be larger; elsewhere these are in range.
+    let least = 1.0 / (1u32 << 14) as f32;
+    for form in [Form::Textbook, Form::Perpendicular] {
+        let spu = |radius: f32| by(Arithmetic::Spu(form), &ball(0.0, radius), 0.0, ahead, 0.25);
+        assert!(spu(least) && !spu(least.next_down()) && is(&ball(0.0, least.next_down()), 0.0, ahead, 0.25));
+    }
     let unit = ball(0.0, 1.0);
     assert!(is(&unit, billion, ahead, 0.25) && !is(&unit, billion.next_up(), ahead, 0.25), "eye");
     let short = |length: f32| is(&unit, 0.0, [-length, length, -length], length / 2.0);
     assert!(short(2e-6) && !short(9e-7), "directions shorter than 2^-20");
     assert!(short(1e5) && !short(1e6), "directions longer than 2^20");
+}
+
+/// A ball that touches a plane from below has a point in the cell that begins there; one that touches it from above has none in the
+/// cell that ends there. Planes and radii are such that nothing is rounded.
+#[test]
+fn a_touched_cell_holds_a_point() {
+    let camera = beam([0.5, 0.4, 99.0], [4.0; 3], 0.01, &mut generator(0, 0)).expect("a beam");
+    let plan = Plan { arithmetic: Arithmetic::Certified, resolution: Resolution::Fixed(7), ..Plan::safe() };
+    let pins = pins(8.0, 0.0);
+    let overlapping = |spheres: &[Sphere]| {
+        let (scene, seen) = seen(plan, spheres, &camera);
+        let planes = seen.grid.as_ref().map(|grid| grid.axes[0].planes.clone()).expect("in range");
+        let checked = listing_is_complete(&seen, &scene).expect("complete");
+        (checked.overlapping, planes)
+    };
+    let (of_pins, planes) = overlapping(&pins);
+    let radius = 1.0 / 16.0;
+    let mut judged = 0;
+    for axis in 0..3 {
+        for &plane in &planes[1..7] {
+            let middle = (planes[3] + planes[4]) / 2.0;
+            for (offset, cells) in [(-radius, 2), (radius, 1)] {
+                let mut center = [middle; 3];
+                center[axis] = plane + offset;
+                let exact = f64::from(plane) + f64::from(offset) == f64::from(center[axis]);
+                if !exact {
+                    continue;
+                }
+                let ball = Sphere { center, radius, color: [9; 3] };
+                let (found, again) = overlapping(&[&pins[..], &[ball]].concat());
+                assert_eq!(again, planes, "the pins hold the grid");
+                assert_eq!(found - of_pins, cells, "{offset} from plane {plane} on axis {axis}");
+                judged += 1;
+            }
+        }
+    }
+    eprintln!("{judged} balls that touch a plane");
+    assert!(judged > 12, "too little was at stake");
 }

@@ -53,6 +53,8 @@ fn broken_xyz() {
         ("a.xyz", text("-1\n\n"), &["a.xyz:1:1", "\"-1\""]),
         ("a.xyz", text("99999999999\n\nH 0 0 0\n"), &["a.xyz:1:1", "count of atoms is 99999999999", "left"]),
         ("a.xyz", text("99999999999999999999999\n\nH 0 0 0\n"), &["a.xyz:1:1", "99999999999999999999999"]),
+        // Nine atoms take more than the nine bytes that are left.
+        ("a.xyz", text("9\n\nH 0 0 0\n"), &["a.xyz:1:1", "count of atoms is 9", "left"]),
         ("a.xyz", text("1\n\nH 0 0\n"), &["a.xyz:3:6", "z is missing"]),
         ("a.xyz", text("1\n\nH 0 nan 0\n"), &["a.xyz:3:5", "y is \"nan\""]),
         ("a.xyz", text("1\n\nH 0 0 -inf\n"), &["a.xyz:3:7", "z is \"-inf\""]),
@@ -222,6 +224,8 @@ fn broken_json() {
             &["a.json:4:", "dec 0.1 (bits 3dcccccd)", "3dcccccc", "disagree"],
         ),
         ("a.json", with("\"dec\": 1.5", "\"dec\": 1.25"), &["a.json:5:", "dec 1.25", "disagree"]),
+        // The two zeros are equal and not the same.
+        ("a.json", with("80000000", "00000000"), &["a.json:", "dec -0.0 (bits 80000000)", "disagree"]),
         ("a.json", with("3dcccccd", "7fc00000"), &["a.json:4:", "NaN", "finite"]),
         ("a.json", with("3dcccccd", "7f800000"), &["a.json:4:", "inf", "finite"]),
         ("a.json", with("3dcccccd", "3dccccc"), &["a.json:4:", "eight hex digits"]),

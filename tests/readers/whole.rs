@@ -207,3 +207,15 @@ fn memory_is_kept_account_of() {
         "{error}"
     );
 }
+
+/// Whatever the header promises, frames are what the records hold, and a difference is a warning.
+#[test]
+fn a_dcd_has_the_frames_of_its_records() {
+    for promised in [0, 1, 2, 3, 500] {
+        let loaded = ok("a.dcd", &dcd(false, true, promised, 0));
+        assert_eq!(loaded.animation.frames().len(), 2, "{promised} promised");
+        let text = format!("the header promises {promised} frames, the records hold 2");
+        let warned = loaded.warnings.iter().any(|warning| warning.text == text);
+        assert_eq!(warned, promised != 2, "{promised} promised: {:?}", loaded.warnings);
+    }
+}
