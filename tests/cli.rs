@@ -404,10 +404,14 @@ fn a_case_is_replayed_step_by_step() {
     let case = folder.join("paper-to-the-letter.json").display().to_string();
     let said = desk.run(&["replay", &case]);
     assert_eq!((said.code, said.err.as_str()), (0, ""), "{}", said.out);
-    for word in
-        ["pixel      (", "frustum    along", "slice", "culling: ", "discriminant: ", "Wrong, as it should be"]
+    for word in ["pixel      (", "frustum    along", "slice", "met        0 times", "Wrong, as it should be"]
     {
         assert!(said.out.contains(word), "no `{word}` in\n{}", said.out);
+    }
+    let met = desk.run(&["replay", &folder.join("block-is-split.json").display().to_string()]);
+    assert_eq!((met.code, met.err.as_str()), (0, ""), "{}", met.out);
+    for word in ["culling: kept", "culling: dropped", "discriminant: ", "as it should be"] {
+        assert!(met.out.contains(word), "no `{word}` in\n{}", met.out);
     }
     let chosen = desk.run(&["replay", &case, "--pixel", "0,0", "--shrink", "--out", "kept"]);
     assert_eq!(chosen.code, 0, "{}{}", chosen.out, chosen.err);
