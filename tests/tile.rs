@@ -291,7 +291,7 @@ fn candidates_of_every_round_are_met() {
         let mut rng = generator(seed, i);
         let mut ball = || Sphere {
             center: std::array::from_fn(|axis| rng.random_range(-1.0f32..1.0) * [1.0, 1.0, 8.0][axis]),
-            radius: rng.random_range(0.012f32..0.02),
+            radius: rng.random_range(0.02f32..0.03),
             color: std::array::from_fn(|_| rng.random()),
         };
         let scene = Scene::new((0..2_000).map(|_| ball()).collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
