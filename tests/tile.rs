@@ -282,6 +282,39 @@ fn frames_of_one_size_follow_each_other() {
     );
 }
 
+/// Many small spheres in one tile and in many slices, so that candidates come in several rounds, and hardly one hides another: whichever
+/// were left out would be seen.
+#[test]
+fn candidates_of_every_round_are_met() {
+    let (seed, side) = (seed(), 128u16);
+    for i in 0..3 {
+        let mut rng = generator(seed, i);
+        let mut ball = || Sphere {
+            center: std::array::from_fn(|axis| rng.random_range(-1.0f32..1.0) * [1.0, 1.0, 8.0][axis]),
+            radius: rng.random_range(0.02f32..0.03),
+            color: std::array::from_fn(|_| rng.random()),
+        };
+        let scene = Scene::new((0..2_000).map(|_| ball()).collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
+        let step = 0.18 / f32::from(side);
+        let size = Size::new(side.into(), side.into()).expect("a size");
+        let camera =
+            Camera::new([0.0, 0.0, 20.0], [-0.09, 0.09, -1.0], [step, 0.0, 0.0], [0.0, -step, 0.0], size);
+        let camera = camera.expect("a camera");
+        let truth = exact(&scene, &camera);
+        let mut seen: Vec<u32> = truth.ids.iter().copied().filter(|id| *id != MISS).collect();
+        seen.sort_unstable();
+        seen.dedup();
+        for slices in [6, 20, 60] {
+            let plan = Plan { resolution: Resolution::Fixed(slices), ..Plan::fast() };
+            let given = Tracer::new(plan, Level::best().expect("a level")).render(&scene, &camera);
+            let given = given.expect("nothing to refuse").image;
+            assert_equal(&truth, &given, &|| format!("{slices} slices, picture {i} of CGT_SEED={seed}"));
+        }
+        eprintln!("CGT_SEED={seed}: {} spheres are seen", seen.len());
+        assert!(seen.len() > 1_000, "too little was at stake: {} spheres are seen", seen.len());
+    }
+}
+
 #[test]
 fn what_tiles_need_is_asked_for() {
     let matrix = Matrix::new().expect("all data that is there can be read");
