@@ -9,10 +9,17 @@ use verify::prove::solver::Solver;
 use verify::scenes::catalogue::{Data, ENTRIES};
 
 /// Commands that are not run here, and why. Each must occur, and each script of them must be there to be run.
-const NOT_RUN: [(&str, &str); 6] = [
+const NOT_RUN: [(&str, &str); 10] = [
     ("tests/run", "it is what runs this test"),
     ("tests/fetch-data", "it needs a network"),
     ("tests/run --long", "it takes ten minutes"),
+    ("tests/faults/run", "it takes half an hour; tests/faults.rs runs what it judges by"),
+    ("tests/faults/run --sample 12", "it builds the workspace with faults in it; .ci/run runs it"),
+    (
+        "fuzz/run scene 60",
+        "it builds for a fuzzer, with a C++ compiler; tests/fuzz.rs runs the target itself",
+    ),
+    ("tests/sanitize miri", "it needs nightly Rust and minutes; tests/accesses.rs is what it runs"),
     (
         "tests/instructions",
         "it needs Valgrind; tests/instructions.rs runs its comparison on counts that are made up",
@@ -76,6 +83,12 @@ fn run(line: &str) -> (TempDir, Output) {
     std::fs::write(desk.path().join("molecule.pdb.gz"), bundled.expect("bundled")).expect("written");
     let path = "2\none\nC 0 0 0\nO 1.2 0 0\n2\ntwo\nC 0 0 0\nO 1.3 0 0\n";
     std::fs::write(desk.path().join("path.xyz"), path).expect("written");
+    let cases = desk.path().join("tests/cases");
+    std::fs::create_dir_all(&cases).expect("made");
+    for case in std::fs::read_dir(root().join("tests/cases")).expect("it is there") {
+        let case = case.expect("an entry");
+        std::fs::copy(case.path(), cases.join(case.file_name())).expect("copied");
+    }
     let words =
         words(line).unwrap_or_else(|| panic!("README names a command this test does not know: {line}"));
     let output = Command::new(env!("CARGO_BIN_EXE_cgt")).args(words).current_dir(desk.path()).output();

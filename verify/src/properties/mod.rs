@@ -227,7 +227,7 @@ fn finite(bits: u32) -> f32 {
     f32::from_bits(if bits >> 23 & 0xff == 0xff { bits ^ 1 << 30 } else { bits })
 }
 
-/// Metamorphic relations of [`relations`], of exact plans mostly.
+/// Metamorphic relations of [`relations::Relation`], of exact plans mostly.
 ///
 /// # Errors
 /// The account of a failure.
@@ -262,7 +262,7 @@ fn of_recipes(
     outcome.map_err(|failure| told(property, &failure, &|case| check(case).is_err()))
 }
 
-/// What is known of lattices ([`lattice`]), by every tracer: the naive ones in each of their arithmetics, and the grid tracer with a drawn
+/// What is known of lattices ([`Lattice`]), by every tracer: the naive ones in each of their arithmetics, and the grid tracer with a drawn
 /// plan in those that have the answer.
 ///
 /// # Errors

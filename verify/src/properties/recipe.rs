@@ -2,7 +2,7 @@
 //! plane of the grid within 2 ulp on two axes, one whose silhouette a pixel's ray grazes, a twin, a crowd in one cell ...); how it
 //! becomes numbers stands in [`super::place`].
 //!
-//! Two moods: *certain*, integers where every answer is known without any tracer ([`super::lattice`]), and *anything*.
+//! Two moods: *certain*, integers where every answer is known without any tracer ([`super::lattice::Lattice`]), and *anything*.
 
 use crate::case::Asked;
 use crate::subject::NAIVE_ALL;

@@ -1,7 +1,7 @@
 //! One pixel told step by step, by the shipped code itself: its ray, the grid, the slices and cells its packet comes to, what they list,
 //! each culling and each intersection with the numbers that were compared, what the stages decided, and the exact answer.
 //!
-//! In: a case, a frame, a pixel. Out: text. The tracer's kernels run on a machine that notes every comparison ([`watch`]); nothing of
+//! In: a case, a frame, a pixel. Out: text. The tracer's kernels run on a machine that notes every comparison (module `watch`); nothing of
 //! them is written a second time here. Plans with tiles are told by the walk of the pixel's own block, which a tile makes for many at once.
 
 mod watch;
