@@ -61,6 +61,7 @@ fn no_promise_is_broken_on_directed_scenes() {
         ("spheres in several cells", 4_000),
         ("spheres that span three cells or more", 1_500),
         ("spheres within 4 ulp of a plane", 250),
+        ("grids of more spheres than a tile takes in one round", 50),
         ("candidates culled", 5_000),
         ("blocks split", 200),
         ("queues full", 15),

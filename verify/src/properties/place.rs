@@ -4,6 +4,7 @@
 
 use super::recipe::{Ball, Recipe, View};
 use crate::case::{Asked, Case};
+use crate::seed::generator;
 use crate::verdict::Verdict;
 use contract::{Animation, Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
 use optimized::crew::Crew;
@@ -12,6 +13,7 @@ use optimized::grid::Memory;
 use optimized::host::Scalar;
 use optimized::plan::{OnEvent, Plan};
 use optimized::seen::Seen;
+use rand::RngExt;
 use reference::Ray;
 
 /// The case, if the contract accepts its numbers.
@@ -165,6 +167,14 @@ fn add(
                 let mut center = within(at);
                 center[usize::from(n % 3)] += single(size * f64::from(n) * 1e-4);
                 push(spheres, center, large(radius));
+            }
+        }
+        Ball::Swarm { count, seed } => {
+            let mut rng = generator(seed.into(), 0);
+            for _ in 0..count {
+                let center = [0, 1, 2].map(|_| single(corner + size * rng.random_range(0.0..1.0)));
+                // Radii over a decade, so that some are set apart as large.
+                push(spheres, center, single(size * 10f64.powf(rng.random_range(-2.3..-1.2))));
             }
         }
         Ball::Grazed { pixel, along, radius, turn, ulps: off } => {

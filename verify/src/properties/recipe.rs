@@ -46,6 +46,8 @@ pub enum Ball {
     Behind { distance: f32, radius: f32 },
     /// So many in one cell.
     Crowd { count: u8, at: [f32; 3], radius: f32 },
+    /// So many small ones all over, as a molecule has: more than a tile takes in one round.
+    Swarm { count: u16, seed: u32 },
     /// Grazed by a pixel's ray, but for some ulp of the radius.
     Grazed { pixel: [u8; 2], along: f32, radius: f32, turn: u8, ulps: i8 },
     /// Hit by a pixel's ray where an earlier one is, but for some ulp.
@@ -131,6 +133,12 @@ pub fn ball() -> impl Strategy<Value = Ball> {
         2 => (any::<u8>(), pixel(), radius(), any::<bool>())
             .prop_map(|(of, pixel, radius, inside)| Ball::SameHit { of, pixel, radius, inside }),
     ]
+}
+
+/// What some scenes have besides: hundreds of small spheres.
+fn swarm() -> impl Strategy<Value = Option<Ball>> {
+    let swarm = (200u16..=900, any::<u32>()).prop_map(|(count, seed)| Ball::Swarm { count, seed });
+    prop::option::weighted(0.06, swarm)
 }
 
 /// One ball of any finite numbers.
@@ -245,7 +253,10 @@ pub fn recipe(
     let size = prop_oneof![3 => Just(0.0f32), 1 => (-30i16..=60).prop_map(|n| f32::from(n) / 10.0)];
     let offset = prop_oneof![2 => Just(0.0f32), 1 => (-1000i16..=1000).prop_map(|n| f32::from(n) / 10.0)];
     let moved = prop::option::weighted(0.2, (any::<u8>(), place()));
-    (size, offset, vec(balls, 0..=most), view(), asked(arithmetics), moved).prop_map(
-        |(size, offset, balls, view, asked, moved)| Recipe { size, offset, balls, view, asked, moved },
+    (size, offset, vec(balls, 0..=most), swarm(), view(), asked(arithmetics), moved).prop_map(
+        |(size, offset, mut balls, swarm, view, asked, moved)| {
+            balls.extend(swarm);
+            Recipe { size, offset, balls, view, asked, moved }
+        },
     )
 }

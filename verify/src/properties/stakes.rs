@@ -101,6 +101,10 @@ impl Stakes {
     /// Counts what a grid makes of a scene.
     pub fn add_grid(&mut self, scene: &Scene, grid: &Grid) {
         self.add("grids", 1);
+        self.add(
+            "grids of more spheres than a tile takes in one round",
+            u64::from(scene.spheres().len() > 256),
+        );
         for sphere in scene.spheres() {
             let mut cells = 1usize;
             let mut near = false;
