@@ -4,7 +4,7 @@
 
 use verify::properties::relations::RELATIONS;
 use verify::properties::stakes::Stakes;
-use verify::properties::{certain, pictures, relations, wild};
+use verify::properties::{certain, pictures, relations, swarms, wild};
 use verify::seed::{count, seed};
 
 /// Runs a property and asks whether enough was at stake.
@@ -61,7 +61,6 @@ fn no_promise_is_broken_on_directed_scenes() {
         ("spheres in several cells", 4_000),
         ("spheres that span three cells or more", 1_500),
         ("spheres within 4 ulp of a plane", 250),
-        ("grids of more spheres than a tile takes in one round", 50),
         ("candidates culled", 5_000),
         ("blocks split", 200),
         ("queues full", 15),
@@ -74,6 +73,16 @@ fn no_promise_is_broken_on_directed_scenes() {
         ("frames within the bound of rounding", 300),
     ];
     hold("pictures", 2_500, &least, pictures);
+}
+
+#[test]
+fn no_promise_is_broken_among_hundreds_of_spheres() {
+    let least = [
+        ("grids of more spheres than a tile takes in one round", 150),
+        ("hits", 3_000),
+        ("spheres in several cells", 20_000),
+    ];
+    hold("swarms", 400, &least, swarms);
 }
 
 #[test]

@@ -190,7 +190,22 @@ pub fn judged(case: &Case) -> Result<Stakes, Failure> {
 /// # Errors
 /// The account of a failure, as [`told`] gives it.
 pub fn pictures(seed: u64, cases: u64) -> Result<Stakes, String> {
-    of_recipes("picture", seed, cases, &|| recipe::recipe(recipe::ball(), 14, &ARITHMETICS).boxed(), &judged)
+    of_recipes(
+        "picture",
+        seed,
+        cases,
+        &|| recipe::recipe(recipe::ball(), 14, 2, &ARITHMETICS).boxed(),
+        &judged,
+    )
+}
+
+/// The same with hundreds of spheres, by exact plans: what a tile does only where one round does not hold its candidates.
+///
+/// # Errors
+/// The account of a failure.
+pub fn swarms(seed: u64, cases: u64) -> Result<Stakes, String> {
+    let strategy = || recipe::recipe(recipe::ball(), 4, 100, &ARITHMETICS[..1]).boxed();
+    of_recipes("swarm", seed, cases, &strategy, &judged)
 }
 
 /// Any finite numbers for spheres and camera.
@@ -201,7 +216,7 @@ pub fn wild(seed: u64, cases: u64) -> Result<Stakes, String> {
     let strategy = || {
         let vector = || any::<[u32; 3]>().prop_map(|v| v.map(finite));
         let camera = [vector(), vector(), vector(), vector()];
-        (recipe::recipe(recipe::wild(), 6, &ARITHMETICS), camera).boxed()
+        (recipe::recipe(recipe::wild(), 6, 0, &ARITHMETICS), camera).boxed()
     };
     let with_camera = |(recipe, [eye, corner, du, dv]): &(Recipe, [[f32; 3]; 4])| {
         let mut case = place::case(recipe)?;
@@ -245,7 +260,7 @@ pub fn relations(seed: u64, cases: u64) -> Result<Stakes, String> {
         "relation",
         seed,
         cases,
-        &|| recipe::recipe(recipe::ball(), 10, &ARITHMETICS[..3]).boxed(),
+        &|| recipe::recipe(recipe::ball(), 10, 2, &ARITHMETICS[..3]).boxed(),
         &check,
     )
 }

@@ -135,10 +135,10 @@ pub fn ball() -> impl Strategy<Value = Ball> {
     ]
 }
 
-/// What some scenes have besides: hundreds of small spheres.
-fn swarm() -> impl Strategy<Value = Option<Ball>> {
-    let swarm = (200u16..=900, any::<u32>()).prop_map(|(count, seed)| Ball::Swarm { count, seed });
-    prop::option::weighted(0.06, swarm)
+/// What so many scenes of a hundred have besides: hundreds of small spheres.
+fn swarm(percent: u8) -> impl Strategy<Value = Option<Ball>> {
+    (0u8..100, 200u16..=900, any::<u32>())
+        .prop_map(move |(n, count, seed)| (n < percent).then_some(Ball::Swarm { count, seed }))
 }
 
 /// One ball of any finite numbers.
@@ -244,16 +244,17 @@ pub fn asked(arithmetics: &'static [Arithmetic]) -> impl Strategy<Value = Asked>
     }
 }
 
-/// Recipes of balls of a kind, at most so many of them.
+/// Recipes of balls of a kind, at most so many of them, `swarms` in a hundred with a swarm besides.
 pub fn recipe(
     balls: impl Strategy<Value = Ball>,
     most: usize,
+    swarms: u8,
     arithmetics: &'static [Arithmetic],
 ) -> impl Strategy<Value = Recipe> {
     let size = prop_oneof![3 => Just(0.0f32), 1 => (-30i16..=60).prop_map(|n| f32::from(n) / 10.0)];
     let offset = prop_oneof![2 => Just(0.0f32), 1 => (-1000i16..=1000).prop_map(|n| f32::from(n) / 10.0)];
     let moved = prop::option::weighted(0.2, (any::<u8>(), place()));
-    (size, offset, vec(balls, 0..=most), swarm(), view(), asked(arithmetics), moved).prop_map(
+    (size, offset, vec(balls, 0..=most), swarm(swarms), view(), asked(arithmetics), moved).prop_map(
         |(size, offset, mut balls, swarm, view, asked, moved)| {
             balls.extend(swarm);
             Recipe { size, offset, balls, view, asked, moved }
