@@ -135,14 +135,7 @@ fn operations_are_those_of_the_host() {
                 operands[1] = operands[0];
             }
             let expected = on_scalar(op, &operands);
-            let made: Vec<Term> = op
-                .takes()
-                .iter()
-                .zip(&operands)
-                .map(|(sort, bits)| constant(&mut terms, *sort, *bits))
-                .collect();
-            let at = |i: usize| made.get(i).copied().unwrap_or(made[0]);
-            let result = terms.make(Node::Op(op, [at(0), at(1), at(2)]));
+            let result = of_constants(&mut terms, op, &operands);
             let values = terms.values(&[]);
             let found = values.bits(result);
             let nan = op.gives() == Sort::Number && f32::from_bits(expected).is_nan();
@@ -184,14 +177,7 @@ fn operations_on_reals_are_exact() {
                 Op::Select => vec![u32::from(x < y), x.to_bits(), y.to_bits()],
                 _ => vec![x.to_bits(), y.to_bits()],
             };
-            let made: Vec<Term> = op
-                .takes()
-                .iter()
-                .zip(&operands)
-                .map(|(sort, bits)| constant(&mut terms, *sort, *bits))
-                .collect();
-            let at = |i: usize| made.get(i).copied().unwrap_or(made[0]);
-            let result = terms.make(Node::Op(op, [at(0), at(1), at(2)]));
+            let result = of_constants(&mut terms, op, &operands);
             let expected = on_scalar(op, &operands);
             match op.gives() {
                 Sort::Number => {
@@ -272,6 +258,14 @@ fn is(terms: &mut Terms, sort: Sort, term: Term, bits: u32) -> Vec<(Term, bool)>
             same
         }
     }
+}
+
+/// An operation on constants.
+fn of_constants(terms: &mut Terms, op: Op, operands: &[u32]) -> Term {
+    let takes = op.takes().iter().zip(operands);
+    let made: Vec<Term> = takes.map(|(sort, bits)| constant(terms, *sort, *bits)).collect();
+    let at = |i: usize| made.get(i).copied().unwrap_or(made[0]);
+    terms.make(Node::Op(op, [at(0), at(1), at(2)]))
 }
 
 /// The scalar machine's result, as bits.

@@ -2,27 +2,12 @@
 //! mistaken for empty; corners that share a cell list an id once.
 
 use optimized::host::Level;
-use optimized::host::Work;
-use optimized::machine::{LANES, Machine};
-use optimized::queue::{EMPTY, MAX_IDS, Queue, SLOTS, push_all};
+use optimized::machine::LANES;
+use optimized::queue::{EMPTY, MAX_IDS, Queue, SLOTS};
 use rand::RngExt;
 use std::collections::{BTreeSet, VecDeque};
+use verify::fuzzed::Push;
 use verify::seed::{generator, seed};
-
-/// Pushes an id onto the queues at these places as the voxelizer does.
-struct Push<'a> {
-    queues: &'a mut [Queue],
-    places: &'a [usize],
-    id: u32,
-}
-
-impl Work for Push<'_> {
-    type Output = ();
-
-    fn on<M: Machine + Send + Sync>(self, m: M) {
-        push_all(m, self.queues, self.places, self.id);
-    }
-}
 
 #[test]
 fn a_queue_holds_the_last_sixteen() {

@@ -918,17 +918,22 @@ fn stripes_are_dealt_to_six() {
     }
 }
 
-/// One sphere in many cells: each time but the first that a packet finds it is a repeat.
-#[test]
-fn repeats_of_one_sphere_are_all_but_the_first() {
+/// A sphere in many cells, all of which a packet may come to.
+fn sphere_in_many_cells() -> (Scene, Plan) {
     let sphere = Sphere { center: [0.0; 3], radius: 1.0, color: [9; 3] };
-    let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("a scene");
     let plan = Plan {
         voxelizer: Voxelizer::BoxRange,
         culling: Culling::None,
         resolution: Resolution::Fixed(6),
         ..Plan::paper()
     };
+    (Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("a scene"), plan)
+}
+
+/// One sphere in many cells: each time but the first that a packet finds it is a repeat.
+#[test]
+fn repeats_of_one_sphere_are_all_but_the_first() {
+    let (scene, plan) = sphere_in_many_cells();
     let mut most = 0;
     for step in 0..40u8 {
         let at = f32::from(step) * 0.05 - 1.0;
@@ -950,14 +955,7 @@ fn repeats_of_one_sphere_are_all_but_the_first() {
 /// With many packets too, all in one stripe: the blocks of a picture as small as a point meet the sphere as often as the first does.
 #[test]
 fn repeats_do_not_end_with_many_packets() {
-    let sphere = Sphere { center: [0.0; 3], radius: 1.0, color: [9; 3] };
-    let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("a scene");
-    let plan = Plan {
-        voxelizer: Voxelizer::BoxRange,
-        culling: Culling::None,
-        resolution: Resolution::Fixed(6),
-        ..Plan::paper()
-    };
+    let (scene, plan) = sphere_in_many_cells();
     let counted = |blocks: u32| {
         let size = Size::new(4 * blocks, 4).expect("a size");
         let camera =

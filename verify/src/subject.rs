@@ -1,9 +1,11 @@
 //! What is judged: any tracer that takes a scene and a camera and gives an image, with its promise.
 
 use contract::{Camera, Image, Scene};
-use optimized::plan::{Arithmetic, Resolution};
+use optimized::grid::MAX_CELLS;
+use optimized::plan::{Arithmetic, Cells, Margins, OnEvent, Packet, Resolution, Voxelizer};
 use optimized::seen::Counts;
-use optimized::{Event, Events, Form, Level, Plan};
+use optimized::tile::MAX_SIDE;
+use optimized::{Event, Events, Form, Level, Plan, RenderError};
 use reference::Arithmetic as Naively;
 
 /// What a subject says of its own answers. A judge holds it to that.
@@ -47,6 +49,15 @@ impl Rounding {
 }
 
 impl Promise {
+    /// The reference's arithmetic that has the promised picture, or of a naive tracer its own.
+    #[must_use]
+    pub fn naive(self) -> Naively {
+        match self {
+            Self::Exact => Naively::Exact,
+            Self::Rounded(rounding) | Self::EqualToNaive(rounding) => rounding.naive(),
+        }
+    }
+
     /// The promise in words, for the report.
     #[must_use]
     pub fn words(self) -> String {
@@ -225,15 +236,8 @@ impl Subject for Grid {
         &self.description
     }
 
-    /// The paper claims no less: its grid is to lose nothing.
     fn promise(&self) -> Promise {
-        match self.plan.arithmetic {
-            Arithmetic::Rounded(Form::Textbook) => Promise::EqualToNaive(Rounding::TextbookF32),
-            Arithmetic::Rounded(Form::Perpendicular) => Promise::EqualToNaive(Rounding::PerpendicularF32),
-            Arithmetic::Spu(Form::Textbook) => Promise::EqualToNaive(Rounding::TextbookSpu),
-            Arithmetic::Spu(Form::Perpendicular) => Promise::EqualToNaive(Rounding::PerpendicularSpu),
-            Arithmetic::Certified => Promise::Exact,
-        }
+        promise(self.plan.arithmetic)
     }
 
     fn render(
@@ -256,6 +260,39 @@ impl Subject for Grid {
             notes.push(stages(&counts));
         }
         Ok(Rendered { image: rendering.image, notes })
+    }
+}
+
+/// What the grid tracer promises in an arithmetic. The paper claims no less: its grid is to lose nothing.
+#[must_use]
+pub fn promise(arithmetic: Arithmetic) -> Promise {
+    match arithmetic {
+        Arithmetic::Rounded(Form::Textbook) => Promise::EqualToNaive(Rounding::TextbookF32),
+        Arithmetic::Rounded(Form::Perpendicular) => Promise::EqualToNaive(Rounding::PerpendicularF32),
+        Arithmetic::Spu(Form::Textbook) => Promise::EqualToNaive(Rounding::TextbookSpu),
+        Arithmetic::Spu(Form::Perpendicular) => Promise::EqualToNaive(Rounding::PerpendicularSpu),
+        Arithmetic::Certified => Promise::Exact,
+    }
+}
+
+/// Whether a plan's tiles, if it has any, have what they need.
+#[must_use]
+pub fn tiles_are_served(plan: &Plan) -> bool {
+    let Packet::Tile { side } = plan.packet else { return true };
+    let listed_once = (plan.voxelizer, plan.cells) == (Voxelizer::ByCenter, Cells::Lists);
+    let certain = (plan.arithmetic, plan.margins) == (Arithmetic::Certified, Margins::Derived);
+    listed_once && certain && (1..=MAX_SIDE).contains(&side)
+}
+
+/// Whether a plan may answer so. Whatever else keeps the grid tracer from giving a picture is a failure of it.
+#[must_use]
+pub fn may_refuse(plan: &Plan, error: &RenderError) -> bool {
+    let (Resolution::Fixed(n) | Resolution::UpTo(n)) = plan.resolution;
+    match error {
+        RenderError::Tile { .. } => !tiles_are_served(plan),
+        RenderError::Refused(_) => plan.on_event == OnEvent::Refuse,
+        RenderError::Resolution { cells } => *cells == n && (n == 0 || usize::from(n) > MAX_CELLS),
+        _ => false,
     }
 }
 

@@ -8,7 +8,7 @@ use image::imageops::{FilterType, resize};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// The variable that names the folder for failures; without it `target/cases`.
+/// The variable that names the folder for failures; without it `target/cases` of the workspace, wherever a test is run.
 pub const VARIABLE: &str = "CGT_CASES";
 
 /// Smaller pictures are magnified to this width at least.
@@ -42,21 +42,30 @@ pub struct Kept {
 /// Where failures go.
 #[must_use]
 pub fn folder() -> PathBuf {
-    std::env::var_os(VARIABLE).map_or_else(|| Path::new("target").join("cases"), PathBuf::from)
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new("."));
+    std::env::var_os(VARIABLE).map_or_else(|| workspace.join("target/cases"), PathBuf::from)
 }
 
-/// Writes `NAME.json`, `NAME.png` and `NAME.txt`.
+/// Writes `NAME.json`, `NAME.png` and `NAME.txt`; the first alone if the tracer gives no picture.
 ///
 /// # Errors
 /// [`KeepError`] if one of them cannot be made or written.
 pub fn keep(case: &Case, folder: &Path, name: &str) -> Result<Kept, KeepError> {
     std::fs::create_dir_all(folder).map_err(|cause| KeepError::Folder { folder: folder.into(), cause })?;
-    let judged = case.judge()?;
+    let file = folder.join(format!("{name}.json"));
+    let judged = match case.judge() {
+        Ok(judged) => judged,
+        // There is nothing to show, but the case can be run again.
+        Err(error) => {
+            write_atomically(&file, case.to_json().as_bytes())?;
+            let command = format!("cgt replay {}", file.display());
+            return Ok(Kept { file, command, account: error.to_string() });
+        }
+    };
     let wrong = judged.iter().position(|judged| judged.wrong.is_some());
     let frame = wrong.unwrap_or(judged.len() - 1);
     let pixel = case.pixel.or(judged[frame].wrong).unwrap_or([0, 0]);
     let case = Case { pixel: Some(pixel), ..case.clone() };
-    let file = folder.join(format!("{name}.json"));
     write_atomically(&file, case.to_json().as_bytes())?;
     let picture = triptych(&judged[frame].promised, &judged[frame].picture)?;
     let factor = WIDTH.div_ceil(picture.width().max(1));

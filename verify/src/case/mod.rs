@@ -12,12 +12,13 @@ pub mod text;
 
 use crate::judge::compare::compare;
 use crate::judge::{Judgement, judge};
-use crate::subject::{Grid, Naive, Promise, Subject};
+use crate::subject::{Naive, Promise, Subject, may_refuse, promise};
 use crate::verdict::Verdict;
 use contract::{Animation, Camera, Image, Scene};
 use optimized::{Level, Plan, RenderError, Tracer};
 use reference::Arithmetic;
 use std::fmt;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use thiserror::Error;
 
 /// A tracer and what it is to trace.
@@ -64,6 +65,9 @@ pub enum CaseError {
         /// Why.
         error: RenderError,
     },
+    /// The tracer panicked, of which nobody can say where it would have led.
+    #[error("the tracer panicked: {0}")]
+    Panicked(String),
     /// The reference gave no picture.
     #[error("no truth to judge by: {0}")]
     Reference(#[from] reference::RenderError),
@@ -84,7 +88,7 @@ impl Asked {
     pub fn promise(&self) -> Promise {
         match self {
             Self::Naive(naive) => naive.promise(),
-            Self::Grid { plan, level, .. } => Grid::of(*plan, *level, "grid".into()).promise(),
+            Self::Grid { plan, .. } => promise(plan.arithmetic),
         }
     }
 }
@@ -103,11 +107,28 @@ pub struct Judged {
 }
 
 impl Case {
+    /// Whether the tracer may answer so: its plan says that it refuses what the scene does. All else is a failure.
+    #[must_use]
+    pub fn may_fail_with(&self, error: &CaseError) -> bool {
+        match (&self.asked, error) {
+            (Asked::Grid { plan, .. }, CaseError::Refused { error, .. }) => may_refuse(plan, error),
+            _ => false,
+        }
+    }
+
     /// The tracer's pictures of all frames.
     ///
     /// # Errors
-    /// [`CaseError`] if there is none.
+    /// [`CaseError`] if there is none; a panic is one, so that it can be shrunk and kept as any other failure.
     pub fn pictures(&self) -> Result<Vec<Image>, CaseError> {
+        catch_unwind(AssertUnwindSafe(|| self.rendered())).unwrap_or_else(|panic| {
+            let said = panic.downcast_ref::<String>().cloned();
+            let said = said.or_else(|| panic.downcast_ref::<&str>().map(|said| (*said).to_owned()));
+            Err(CaseError::Panicked(said.unwrap_or_else(|| "it did not say why".into())))
+        })
+    }
+
+    fn rendered(&self) -> Result<Vec<Image>, CaseError> {
         let frames = self.frames.frames();
         match self.asked {
             Asked::Naive(naive) => {

@@ -22,7 +22,7 @@ mod walk;
 pub use certified::certified;
 pub use filter::filter;
 pub use mutate::mutated;
-pub use queue::queue;
+pub use queue::{Push, queue};
 pub use readers::{case, dcd, json, lammps, nff, pdb, pov, xtc, xyz};
 pub use scene::scene;
 pub use spu::spu;

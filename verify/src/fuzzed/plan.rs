@@ -1,13 +1,11 @@
-//! From bytes to a plan, among all that the types allow, and when a plan may refuse a frame.
+//! From bytes to a plan, among all that the types allow.
 
 use super::bytes::Bytes;
-use optimized::grid::MAX_CELLS;
+use optimized::Form;
 use optimized::plan::{
     Arithmetic, Cells, Culling, Loop, Margins, OnEvent, Packet, Plan, Resolution, Sharing, Voxelizer,
 };
 use optimized::tile::MAX_SIDE;
-use optimized::{Form, RenderError};
-use reference::Arithmetic as Naive;
 
 pub(super) const VOXELIZERS: [Voxelizer; 4] =
     [Voxelizer::EightCorners, Voxelizer::BoxRange, Voxelizer::Overlap, Voxelizer::ByCenter];
@@ -59,35 +57,5 @@ pub(super) fn plan(from: &mut Bytes<'_>) -> Plan {
             ..plan
         }),
         250.. => in_tiles(plan),
-    }
-}
-
-/// The reference's arithmetic that a plan's picture is to be that of.
-pub(super) fn naive(arithmetic: Arithmetic) -> Naive {
-    match arithmetic {
-        Arithmetic::Rounded(Form::Textbook) => Naive::F32Textbook,
-        Arithmetic::Rounded(Form::Perpendicular) => Naive::F32Perpendicular,
-        Arithmetic::Spu(Form::Textbook) => Naive::SpuTextbook,
-        Arithmetic::Spu(Form::Perpendicular) => Naive::SpuPerpendicular,
-        Arithmetic::Certified => Naive::Exact,
-    }
-}
-
-/// Whether a plan's tiles, if it has any, have what they need.
-pub(super) fn tiles_are_served(plan: &Plan) -> bool {
-    let Packet::Tile { side } = plan.packet else { return true };
-    let listed_once = (plan.voxelizer, plan.cells) == (Voxelizer::ByCenter, Cells::Lists);
-    let certain = (plan.arithmetic, plan.margins) == (Arithmetic::Certified, Margins::Derived);
-    listed_once && certain && (1..=MAX_SIDE).contains(&side)
-}
-
-/// Whether a plan may answer so.
-pub(super) fn may_refuse(plan: &Plan, error: &RenderError) -> bool {
-    let (Resolution::Fixed(n) | Resolution::UpTo(n)) = plan.resolution;
-    match error {
-        RenderError::Tile { .. } => !tiles_are_served(plan),
-        RenderError::Refused(_) => plan.on_event == OnEvent::Refuse,
-        RenderError::Resolution { cells } => *cells == n && (n == 0 || usize::from(n) > MAX_CELLS),
-        _ => false,
     }
 }

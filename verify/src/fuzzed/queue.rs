@@ -131,10 +131,13 @@ fn grid(from: &mut Bytes<'_>, level: Level) -> u64 {
     lists.len() as u64
 }
 
-struct Push<'a> {
-    queues: &'a mut [Queue],
-    places: &'a [usize],
-    id: u32,
+/// Pushes an id onto the queues at these places as the voxelizer does.
+#[derive(Debug)]
+#[allow(missing_docs, reason = "its fields are what it says")]
+pub struct Push<'a> {
+    pub queues: &'a mut [Queue],
+    pub places: &'a [usize],
+    pub id: u32,
 }
 
 impl Work for Push<'_> {

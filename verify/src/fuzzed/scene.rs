@@ -1,8 +1,9 @@
 //! A picture by any plan, at any level, by one to three workers, against the reference's of the same arithmetic.
 
 use super::bytes::Bytes;
-use super::plan::{may_refuse, naive, plan, tiles_are_served};
+use super::plan::plan;
 use super::{bits, listed, vector, view};
+use crate::subject::{may_refuse, promise, tiles_are_served};
 use contract::{Camera, Image, MISS, Scene};
 use optimized::{Known, Level, Plan, Tracer};
 use reference::Ray;
@@ -37,7 +38,7 @@ pub fn scene(bytes: &[u8]) -> u64 {
         Err(error) if may_refuse(&plan, &error) => return 0,
         Err(error) => panic!("{error}; {frame}"),
     };
-    let truth = reference::Tracer::new(naive(plan.arithmetic)).threads(1).render(&scene, &camera);
+    let truth = reference::Tracer::new(promise(plan.arithmetic).naive()).threads(1).render(&scene, &camera);
     let truth = truth.unwrap_or_else(|error| panic!("{error}; {frame}")).image;
     if !plan.promises_equality() {
         return frame.reports_hits(&image);
@@ -77,7 +78,7 @@ impl Frame<'_> {
     }
 
     fn reports_hits(&self, image: &Image) -> u64 {
-        let tracer = reference::Tracer::new(naive(self.plan.arithmetic));
+        let tracer = reference::Tracer::new(promise(self.plan.arithmetic).naive());
         for (i, &id) in image.ids.iter().enumerate().filter(|(_, id)| **id != MISS) {
             let sphere = self.scene.spheres().get(id as usize).copied();
             let alone = Scene::new(sphere.into_iter().collect(), [0; 3], [0.0; 3]);

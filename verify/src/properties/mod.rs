@@ -15,7 +15,7 @@ pub mod stakes;
 
 use crate::case::folder::{folder, keep};
 use crate::case::shrink::shrink;
-use crate::case::{Asked, Case, CaseError, worst};
+use crate::case::{Asked, Case, worst};
 use crate::seed::generator;
 use crate::subject::NAIVE_ALL;
 use crate::verdict::Verdict;
@@ -146,7 +146,7 @@ pub fn judged(case: &Case) -> Result<Stakes, Failure> {
     let mut stakes = Stakes::default();
     let judged = match case.judge() {
         Ok(judged) => judged,
-        Err(CaseError::Refused { .. }) => {
+        Err(error) if case.may_fail_with(&error) => {
             stakes.add("frames refused", 1);
             return Ok(stakes);
         }
@@ -356,7 +356,7 @@ fn all_know(lattice: &Lattice, grids: &[(Form, bool, Asked)]) -> Result<Stakes, 
         (Naively::F32Perpendicular, Some(Form::Perpendicular)),
     ] {
         let image = reference::Tracer::new(arithmetic).threads(1).render(scene, &case.camera);
-        let Ok(rendering) = image else { continue };
+        let rendering = image.map_err(|error| Failure::new(error.to_string(), case.clone()))?;
         let naive = NAIVE_ALL.into_iter().find(|naive| naive.0.naive() == arithmetic).unwrap_or(NAIVE_ALL[0]);
         hold(Asked::Naive(naive), &format!("reference, {arithmetic:?}"), &rendering.image, form)?;
         stakes.add("pictures of the reference", 1);
@@ -367,7 +367,9 @@ fn all_know(lattice: &Lattice, grids: &[(Form, bool, Asked)]) -> Result<Stakes, 
                 hold(*asked, &asked.to_string(), &images[0], own.then_some(*form))?;
                 stakes.add("pictures of the grid tracer", 1);
             }
-            Some(Err(CaseError::Refused { .. })) => stakes.add("frames refused", 1),
+            Some(Err(error)) if (Case { asked: *asked, ..case.clone() }).may_fail_with(&error) => {
+                stakes.add("frames refused", 1);
+            }
             Some(Err(error)) => return Err(Failure::new(error.to_string(), case.clone())),
             None => {}
         }

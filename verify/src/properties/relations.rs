@@ -78,7 +78,7 @@ impl Relation {
         let scene = case.frames.frames()[0].clone();
         let before = Case { frames: Animation::from(scene.clone()), ..case.clone() };
         let spheres = scene.spheres().to_vec();
-        let Ok(old) = last(&before) else { return Ok(0) };
+        let old = last(&before).map_err(|error| self.says(&error))?;
         let with = |spheres: Vec<Sphere>, light: [f32; 3], camera: Option<Camera>, asked: Asked| {
             let scene = Scene::new(spheres, scene.background(), light).ok()?;
             Some(Case { frames: Animation::from(scene), camera: camera?, asked, ..before.clone() })

@@ -1,7 +1,7 @@
 //! What was at stake in a run: how many of its pixels, spheres and frames lay where tracers go wrong. A run states the least of each that
 //! it needs; below that it judged too little, and has no verdict, however green it was.
 //!
-//! Counted by the judge's own ruler, in f64 and by the exact picture; only what stages a tracer needed, and the planes of its grid, are
+//! Counted by the judge's own ruler, in f64 and by the picture that was promised; only what stages a tracer needed, and the planes of its grid, are
 //! taken from the tracer.
 
 use contract::{Camera, Image, MISS, Scene};
@@ -52,20 +52,20 @@ impl Stakes {
         lacking.map(|(what, least)| format!("{what}: {} of at least {least}", self.count(what))).collect()
     }
 
-    /// Counts what lies in a frame for any tracer: its exact picture must be given.
+    /// Counts what lies in a frame for any tracer; whose pixels are which is told by the picture that was promised.
     ///
     /// # Panics
     /// Never: an image's pixels can be numbered.
-    pub fn add_frame(&mut self, scene: &Scene, camera: &Camera, truth: &Image) {
+    pub fn add_frame(&mut self, scene: &Scene, camera: &Camera, picture: &Image) {
         self.add("frames", 1);
-        self.add("rays", truth.ids.len() as u64);
-        self.add("hits", truth.ids.iter().filter(|id| **id != MISS).count() as u64);
+        self.add("rays", picture.ids.len() as u64);
+        self.add("hits", picture.ids.iter().filter(|id| **id != MISS).count() as u64);
         let width = camera.size().width();
-        let rays = (0..truth.ids.len()).into_par_iter().map(|i| {
+        let rays = (0..picture.ids.len()).into_par_iter().map(|i| {
             let i = u32::try_from(i).expect("an image has at most 2^27 pixels");
             let ray = Ray::of_pixel(camera, i % width, i / width);
             let mut stakes = Self::default();
-            stakes.add_ray(scene, &ray, truth.ids[i as usize]);
+            stakes.add_ray(scene, &ray, picture.ids[i as usize]);
             stakes
         });
         *self = rays.reduce(Self::default, |a, b| a.and(&b)).and(self);

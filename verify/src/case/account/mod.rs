@@ -8,6 +8,7 @@ mod watch;
 
 use super::{Asked, Case, CaseError};
 use contract::{Camera, Image, MISS, Scene, Size, Sphere};
+use optimized::camera;
 use optimized::crew::Crew;
 use optimized::event::Events;
 use optimized::frame;
@@ -18,7 +19,6 @@ use optimized::machine::{LANES, Site};
 use optimized::plan::{Arithmetic, Packet, Plan};
 use optimized::seen::{Seen, Worker};
 use optimized::stripe::{NO_COLUMN, Painter, Stripe};
-use optimized::{Form, camera};
 use reference::{Arithmetic as Naively, Ray, Tracer};
 use std::cell::RefCell;
 use std::fmt::Write as _;
@@ -363,15 +363,10 @@ impl Meeting {
 
 /// What the exact and the tracer's own arithmetic say of each sphere for itself, where either finds a hit.
 fn alone(out: &mut String, scene: &Scene, ray: &Ray, asked: Asked) {
-    let own = match asked {
-        Asked::Naive(naive) => naive.0.naive(),
-        Asked::Grid { plan, .. } => match plan.arithmetic {
-            Arithmetic::Rounded(Form::Textbook) => Naively::F32Textbook,
-            Arithmetic::Rounded(Form::Perpendicular) => Naively::F32Perpendicular,
-            Arithmetic::Spu(Form::Textbook) => Naively::SpuTextbook,
-            Arithmetic::Spu(Form::Perpendicular) => Naively::SpuPerpendicular,
-            Arithmetic::Certified => Naively::ExactUnfiltered,
-        },
+    // The truth is told beside it, so of who promises that the other way to it is taken.
+    let own = match asked.promise().naive() {
+        Naively::Exact => Naively::ExactUnfiltered,
+        own => own,
     };
     line(
         out,

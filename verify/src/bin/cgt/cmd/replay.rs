@@ -26,7 +26,14 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             case.camera.size().height()
         ))?;
     }
-    let judged = case.judge()?;
+    let judged = match case.judge() {
+        Ok(judged) => judged,
+        Err(error) => {
+            let due = case.may_fail_with(&error);
+            say(&format!("{}\n\n{error}{}\n", case.why, if due { ", as its plan says" } else { "" }))?;
+            return Ok(ExitCode::from(if due { 3 } else { 1 }));
+        }
+    };
     let frames = judged.len();
     let wrong = judged.iter().position(|judged| judged.wrong.is_some());
     let frame = args.frame.or(wrong).unwrap_or(frames - 1);
