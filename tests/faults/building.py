@@ -31,7 +31,7 @@ class Copy:
         kept = set(names)
         for path in self.folder.rglob("*"):
             name = path.relative_to(self.folder).as_posix()
-            if path.is_file() and name not in kept and not name.startswith(("fuzz/corpus/", "fuzz/artifacts/")):
+            if path.is_file() and name not in kept and not name.startswith(("fuzz/learned/", "fuzz/artifacts/")):
                 path.unlink()
 
     def put(self, name, content):

@@ -10,7 +10,7 @@ A file of TOML has entries `[[fault]]` with
   property  letters: V voxelization complete, O cells and order of the walk, H hit => visible, I image, C culling, X exact
             adjudication or Embree, R reproducibility, S stated limits and ties, B branches in the machine code, M memory;
             or "suite" for what is no tracer
-  killer    `binary::test`, with the test's modules between
+  killer    `binary::test`, with the test's modules between; it may be left out where `fuzz` stands, and --fuzz alone judges
   env       counts for that test, if the everyday ones are too many or too few
   needs     what the killer cannot do without: an instruction set (avx2, avx512), solver, embree, or fetched data (data)
   alone     true if it cannot be switched at run time and has a build of its own (see `switches`)
@@ -24,7 +24,7 @@ import tomllib
 PROPERTIES = set("VOHICXRSBM")
 KEYS = {"name": str, "file": str, "line": str, "becomes": str, "property": str, "killer": str, "within": (str, list),
         "env": dict, "needs": str, "alone": bool, "fuzz": str, "why": str}
-NEEDED = ("name", "file", "line", "becomes", "property", "killer")
+NEEDED = ("name", "file", "line", "becomes", "property")
 NEEDS = ("avx2", "avx512", "solver", "embree", "data")
 
 
@@ -46,13 +46,15 @@ class Fault:
             if not isinstance(value, KEYS[key]):
                 raise Malformed(f"{origin}: {key} is {value!r}")
         missing = [key for key in NEEDED if key not in entry]
+        if "killer" not in entry and "fuzz" not in entry:
+            missing.append("killer")
         if missing:
             raise Malformed(f"{origin}: {entry.get('name', 'a fault')} has no {', '.join(missing)}")
         self.name, self.file, self.property = entry["name"], entry["file"], entry["property"]
         self.line, self.becomes = entry["line"].strip(), entry["becomes"].strip()
         within = entry.get("within", [])
         self.within = [within] if isinstance(within, str) else within
-        self.killer, self.env = entry["killer"], {key: str(value) for key, value in entry.get("env", {}).items()}
+        self.killer, self.env = entry.get("killer"), {key: str(value) for key, value in entry.get("env", {}).items()}
         self.needs, self.alone, self.fuzz = entry.get("needs"), entry.get("alone", False), entry.get("fuzz")
         self.why = entry.get("why", "")
         if not re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)*", self.name):
@@ -65,18 +67,23 @@ class Fault:
             raise Malformed(f"{self.name}: a fault is one line")
         if " ".join(self.line.split()) == " ".join(self.becomes.split()):
             raise Malformed(f"{self.name}: the line becomes itself")
-        if "::" not in self.killer:
+        if self.killer is not None and "::" not in self.killer:
             raise Malformed(f"{self.name}: the killer {self.killer!r} is not binary::test")
+
+    @property
+    def finder(self):
+        """Who should find it, in a word."""
+        return self.killer or f"fuzz/{self.fuzz}"
 
     @property
     def binary(self):
         """Name of the killer's test binary."""
-        return self.killer.split("::", 1)[0]
+        return self.killer and self.killer.split("::", 1)[0]
 
     @property
     def test(self):
         """The killer's name within it."""
-        return self.killer.split("::", 1)[1]
+        return self.killer and self.killer.split("::", 1)[1]
 
     @property
     def run(self):
@@ -182,9 +189,9 @@ def wrong(root, fault, tests):
         fault.place(path.read_text(encoding="utf-8").splitlines())
     except Stale as stale:
         return str(stale)
-    if fault.binary not in tests:
+    if fault.killer is not None and fault.binary not in tests:
         return f"there is no test binary {fault.binary}"
-    if not has_test(tests[fault.binary][1], fault.test):
+    if fault.killer is not None and not has_test(tests[fault.binary][1], fault.test):
         return f"{fault.binary} has no test {fault.test}"
     if fault.fuzz is not None and not (root / "fuzz/targets" / f"{fault.fuzz}.rs").is_file():
         return f"there is no fuzz target {fault.fuzz}"
