@@ -216,7 +216,7 @@ fn an_account_tells_what_the_tracer_did() {
             "distance from the plane of the lowest Y",
             "culling: kept",
             "discriminant",
-            "block      ",
+            "packet     ",
         ] {
             assert!(told.contains(word), "{arithmetic:?}: no `{word}` in\n{told}");
         }
@@ -246,6 +246,32 @@ fn an_account_tells_what_the_tracer_did() {
     }
 }
 
+/// Where a block is split, what is told is of the pixel's own ray: with culling, a plane's distance is that of its slopes.
+#[test]
+fn an_account_of_a_split_block_tells_of_the_pixels_own_ray() {
+    let case = read(&folder().join("equal-roots.json"));
+    let (mut told, mut split) = (0, 0);
+    for pixel in [[0, 0], [2, 0], [1, 1]] {
+        let text = account(&case, 0, pixel).expect("small");
+        split += u32::from(text.contains("each goes as a packet of its own"));
+        let scene = &case.frames.frames()[0];
+        let ray = reference::Ray::of_pixel(&case.camera, pixel[0], pixel[1]);
+        let alone =
+            |id: u32| Scene::new(vec![scene.spheres()[id as usize]], [0; 3], DEFAULT_LIGHT).expect("valid");
+        for part in text.split("\n  sphere ").skip(1) {
+            let Some(line) = part.lines().find(|line| line.contains("discriminant above its bound: a hit"))
+            else {
+                continue;
+            };
+            let id = part.lines().next().and_then(|id| id.parse().ok()).expect("an id");
+            let hit = reference::Tracer::new(reference::Arithmetic::Exact).trace(&ray, &alone(id)).is_some();
+            assert_eq!(line.ends_with("yes"), hit, "pixel {pixel:?}, sphere {id}: {line}");
+            told += 1;
+        }
+    }
+    assert!(split == 3 && told >= 5, "{split} split, {told} told");
+}
+
 /// What is kept is three files and a command, and the command's file is the case.
 #[test]
 fn a_failure_is_kept_with_its_picture_and_account() {
@@ -259,5 +285,5 @@ fn a_failure_is_kept_with_its_picture_and_account() {
     assert_eq!(read(&kept.file).to_json(), case.to_json());
     assert_eq!(std::fs::read_to_string(folder.path().join("row.txt")).expect("text"), kept.account);
     let picture = image::open(folder.path().join("row.png")).expect("a picture");
-    assert_eq!((picture.width(), picture.height()), (5 * (3 * 32 + 16), 5 * 24), "three panels, magnified");
+    assert_eq!((picture.width(), picture.height()), (3 * 5 * 32 + 2 * 8, 5 * 24), "three panels, magnified");
 }

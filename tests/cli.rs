@@ -408,10 +408,16 @@ fn a_case_is_replayed_step_by_step() {
     {
         assert!(said.out.contains(word), "no `{word}` in\n{}", said.out);
     }
-    let met = desk.run(&["replay", &folder.join("block-is-split.json").display().to_string()]);
-    assert_eq!((met.code, met.err.as_str()), (0, ""), "{}", met.out);
-    for word in ["culling: kept", "culling: dropped", "discriminant: ", "as it should be"] {
-        assert!(met.out.contains(word), "no `{word}` in\n{}", met.out);
+    for (name, words) in [
+        ("touches-a-plane.json", ["culling: kept", "discriminant: 0.0", "Equal, as it should be"]),
+        ("paper-queue-overflows.json", ["culling: dropped", "sphere 17 pushed out sphere 0", "Wrong, as it should be"]),
+        ("block-is-split.json", ["each goes as a packet of its own", "culling: dropped", "as it should be"]),
+    ] {
+        let met = desk.run(&["replay", &folder.join(name).display().to_string()]);
+        assert_eq!((met.code, met.err.as_str()), (0, ""), "{name}: {}", met.out);
+        for word in words {
+            assert!(met.out.contains(word), "no `{word}` in\n{}", met.out);
+        }
     }
     let chosen = desk.run(&["replay", &case, "--pixel", "0,0", "--shrink", "--out", "kept"]);
     assert_eq!(chosen.code, 0, "{}{}", chosen.out, chosen.err);

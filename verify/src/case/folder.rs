@@ -3,7 +3,7 @@
 
 use super::account::account;
 use super::{Case, CaseError};
-use crate::picture::{PictureError, WriteError, png, triptych, write_atomically};
+use crate::picture::{PictureError, RgbaImage, WriteError, join, panels, png, write_atomically};
 use image::imageops::{FilterType, resize};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -11,8 +11,8 @@ use thiserror::Error;
 /// The variable that names the folder for failures; without it `target/cases` of the workspace, wherever a test is run.
 pub const VARIABLE: &str = "CGT_CASES";
 
-/// Smaller pictures are magnified to this width at least.
-const WIDTH: u32 = 480;
+/// Panels of less width are magnified to this at least.
+const WIDTH: u32 = 160;
 
 /// Why a failure was not kept.
 #[derive(Debug, Error)]
@@ -67,12 +67,16 @@ pub fn keep(case: &Case, folder: &Path, name: &str) -> Result<Kept, KeepError> {
     let pixel = case.pixel.or(judged[frame].wrong).unwrap_or([0, 0]);
     let case = Case { pixel: Some(pixel), ..case.clone() };
     write_atomically(&file, case.to_json().as_bytes())?;
-    let picture = triptych(&judged[frame].promised, &judged[frame].picture)?;
-    let factor = WIDTH.div_ceil(picture.width().max(1));
-    let picture = resize(&picture, factor * picture.width(), factor * picture.height(), FilterType::Nearest);
-    write_atomically(&folder.join(format!("{name}.png")), &png(&picture)?)?;
+    let panels = panels(&judged[frame].promised, &judged[frame].picture)?.map(|panel| magnified(&panel));
+    write_atomically(&folder.join(format!("{name}.png")), &png(&join(&panels))?)?;
     let account = account(&case, frame, pixel)?;
     write_atomically(&folder.join(format!("{name}.txt")), account.as_bytes())?;
     let command = format!("cgt replay {} --pixel {},{}", file.display(), pixel[0], pixel[1]);
     Ok(Kept { file, command, account })
+}
+
+/// Each pixel as a square of so many that a small panel can be seen.
+fn magnified(panel: &RgbaImage) -> RgbaImage {
+    let factor = WIDTH.div_ceil(panel.width().max(1));
+    resize(panel, factor * panel.width(), factor * panel.height(), FilterType::Nearest)
 }

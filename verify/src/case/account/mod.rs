@@ -11,14 +11,12 @@ use contract::{Camera, Image, MISS, Scene, Size, Sphere};
 use optimized::camera;
 use optimized::crew::Crew;
 use optimized::event::Events;
-use optimized::frame;
 use optimized::frustum::{Bundle, Heading, Slices};
 use optimized::grid::{Grid, Memory};
 use optimized::host::Scalar;
 use optimized::machine::{LANES, Site};
 use optimized::plan::{Arithmetic, Packet, Plan};
 use optimized::seen::{Seen, Worker};
-use optimized::stripe::{NO_COLUMN, Painter, Stripe};
 use reference::{Arithmetic as Naively, Ray, Tracer};
 use std::cell::RefCell;
 use std::fmt::Write as _;
@@ -129,7 +127,7 @@ fn walked(out: &mut String, plan: Plan, scene: &Scene, camera: &Camera, [x, y]: 
     line(out, format_args!("\nblock      first pixel ({left}, {top}), lane {lane}"));
     let lanes = camera::CameraLanes::new(Scalar, camera);
     let (xs, ys) = camera::middles(Scalar, camera, left, top);
-    let block = lanes.block(Scalar, xs, ys);
+    let mut block = lanes.block(Scalar, xs, ys);
     let bundle = match Bundle::of_block(Scalar, &block) {
         Some(bundle) => Some(bundle),
         None => {
@@ -139,8 +137,9 @@ fn walked(out: &mut String, plan: Plan, scene: &Scene, camera: &Camera, [x, y]: 
                     "           its rays have no common major axis: each goes as a packet of its own"
                 ),
             );
-            let one = [0, 1, 2].map(|i| [block.dir[i][lane]; LANES]);
-            Bundle::of_block(Scalar, &camera::Block::new(Scalar, one))
+            // Sixteen times this one, as the tracer takes it.
+            block = camera::Block::new(Scalar, [0, 1, 2].map(|i| [block.dir[i][lane]; LANES]));
+            Bundle::of_block(Scalar, &block)
         }
     };
     let Some(bundle) = bundle else {
@@ -165,7 +164,7 @@ fn walked(out: &mut String, plan: Plan, scene: &Scene, camera: &Camera, [x, y]: 
             told_grid(out, grid, &slices, heading);
         }
     }
-    told_meetings(out, &seen, scene, camera, [left, top], lane);
+    told_meetings(out, &seen, scene, block.dir, lane);
 }
 
 fn told_grid(out: &mut String, grid: &Grid, slices: &Slices, heading: Heading) {
@@ -220,37 +219,16 @@ fn told_grid(out: &mut String, grid: &Grid, slices: &Slices, heading: Heading) {
     }
 }
 
-/// Each sphere that the block meets, with what was compared, in the order in which that happened.
-fn told_meetings(
-    out: &mut String,
-    seen: &Seen,
-    scene: &Scene,
-    camera: &Camera,
-    corner: [u32; 2],
-    lane: usize,
-) {
+/// Each sphere that a packet meets, with what was compared, in the order in which that happened.
+fn told_meetings(out: &mut String, seen: &Seen, scene: &Scene, dir: [[f32; LANES]; 3], lane: usize) {
     let notes = RefCell::new(Vec::new());
     let m = Watch { values: Scalar, notes: &notes };
-    let lanes = camera::CameraLanes::new(m, camera);
-    let painter = Painter::new(m, scene, camera);
-    let pixels = (camera.size().width() * camera::BLOCK) as usize;
-    let (mut ids, mut t, mut rgba) = (vec![MISS; pixels], vec![f32::INFINITY; pixels], vec![[0; 4]; pixels]);
-    let mut columns = [NO_COLUMN];
-    let mut stripe = Stripe {
-        y: corner[1],
-        width: camera.size().width() as usize,
-        ids: &mut ids,
-        t: &mut t,
-        rgba: &mut rgba,
-        columns: &mut columns,
-    };
     let mut worker = Worker::default();
-    notes.borrow_mut().clear();
-    frame::block(m, seen, scene, camera, (&lanes, &painter), None, corner, &mut stripe, &mut worker);
+    seen.trace(m, scene.spheres(), &camera::Block::new(m, dir), None, &mut worker);
     let meetings = Meeting::all(&notes.into_inner());
     line(
         out,
-        format_args!("\nmet        {} times a sphere by the block; lane {lane} of each:", meetings.len()),
+        format_args!("\nmet        {} times a sphere by the packet; lane {lane} of each:", meetings.len()),
     );
     for meeting in meetings.iter().take(MOST) {
         meeting.told(out, seen.plan.arithmetic, lane);
@@ -262,7 +240,7 @@ fn told_meetings(
     line(
         out,
         format_args!(
-            "block      {} cells visited, {} candidates, {} culled; of its {} lanes f32 left {} to f64, that left {} to integers, which rounded the t of {} more",
+            "packet     {} cells visited, {} candidates, {} culled; of its {} lanes f32 left {} to f64, that left {} to integers, which rounded the t of {} more",
             counts.cells,
             counts.candidates,
             counts.culled,
@@ -274,7 +252,7 @@ fn told_meetings(
     );
 }
 
-/// What a block did with a sphere.
+/// What a packet did with a sphere.
 struct Meeting {
     id: u32,
     /// Distances from the four planes, and what they are held against.
@@ -356,7 +334,7 @@ impl Meeting {
             line(out, format_args!("    {label}: {}", compared.told(lane)));
         }
         if self.possible == Some(false) {
-            line(out, format_args!("    no ray of the block can hit it"));
+            line(out, format_args!("    no ray of the packet can hit it"));
         }
     }
 }
