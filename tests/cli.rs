@@ -410,7 +410,10 @@ fn a_case_is_replayed_step_by_step() {
     }
     for (name, words) in [
         ("touches-a-plane.json", ["culling: kept", "discriminant: 0.0", "Equal, as it should be"]),
-        ("paper-queue-overflows.json", ["culling: dropped", "sphere 17 pushed out sphere 0", "Wrong, as it should be"]),
+        (
+            "paper-queue-overflows.json",
+            ["culling: dropped", "sphere 17 pushed out sphere 0", "Wrong, as it should be"],
+        ),
         ("block-is-split.json", ["each goes as a packet of its own", "culling: dropped", "as it should be"]),
     ] {
         let met = desk.run(&["replay", &folder.join(name).display().to_string()]);
