@@ -45,8 +45,13 @@ pub mod properties;
 
 pub mod bench;
 
+pub mod chart;
+pub mod methods;
+pub mod stability;
+
 pub mod spu;
 
 pub mod claims;
 pub mod picture;
+pub(crate) mod plot;
 pub mod report;

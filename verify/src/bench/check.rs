@@ -45,7 +45,7 @@ impl Checked {
     #[must_use]
     pub fn passes(&self, kind: Kind, pixels: usize) -> bool {
         match kind {
-            Kind::Subject | Kind::Limit | Kind::Picked => self.wrong == 0,
+            Kind::Subject | Kind::Limit | Kind::Picked | Kind::Naive => self.wrong == 0,
             Kind::Embree | Kind::Peer => self.wrong <= (pixels / ALLOWED) as u64,
         }
     }

@@ -21,6 +21,8 @@ pub enum Kind {
     Limit,
     /// The same tracer with a plan picked by hand.
     Picked,
+    /// The reference, in one of its arithmetics.
+    Naive,
     /// Embree, in one of its ways.
     Embree,
     /// A tracer of other people.

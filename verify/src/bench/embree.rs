@@ -9,7 +9,7 @@ use contract::{Camera, MISS, Scene};
 use std::time::Instant;
 
 /// Embree with its way, camera and threads chosen.
-pub(super) struct Entrant {
+pub(crate) struct Entrant {
     name: String,
     description: String,
     animated: Animated,
@@ -27,9 +27,15 @@ impl Entrant {
     /// Lays out its rays.
     #[must_use]
     pub(super) fn new(device: &Device, mode: Mode, camera: &Camera, threads: usize) -> Self {
+        Self::named(name(mode), device, mode, camera, threads)
+    }
+
+    /// The same under another name.
+    #[must_use]
+    pub(crate) fn named(name: String, device: &Device, mode: Mode, camera: &Camera, threads: usize) -> Self {
         let pixels = camera.size().pixels();
         Self {
-            name: name(mode),
+            name,
             description: format!(
                 "Embree {} at {}: ids and t, its tree built again in every frame; directions laid out before",
                 device.version(),

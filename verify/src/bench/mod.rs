@@ -10,13 +10,14 @@
 //! ([`curves`](mod@curves)), and what is said ([`data`], [`baseline`], [`text`], [`page`]).
 
 pub mod contestant;
+pub(crate) mod naive;
 pub mod ours;
 pub mod outsiders;
 
 #[cfg(feature = "embree")]
-mod embree;
+pub(crate) mod embree;
 #[cfg(feature = "peers")]
-mod peers;
+pub(crate) mod peers;
 
 pub mod check;
 pub mod rounds;
@@ -29,7 +30,6 @@ pub mod curves;
 pub mod baseline;
 pub mod data;
 mod page;
-pub(crate) mod plot;
 pub mod text;
 
 pub use curves::curves;

@@ -4,7 +4,7 @@
 //! Both give colours too, which nobody else does: that is more than is asked of the others.
 
 use super::contestant::{Contestant, Frame, Kind, Layers, Oath};
-use crate::subject::{Grid, NamedPlan, Subject, SubjectError};
+use crate::subject::{NamedPlan, SubjectError, promise};
 use contract::{Camera, Image, Scene};
 use optimized::plan::{Chosen, Packet, Resolution};
 use optimized::{Known, Level, Plan, Session, Tracer};
@@ -47,20 +47,21 @@ impl Ours {
     /// # Errors
     /// If there is no memory at all.
     pub fn new(plan: NamedPlan, scene: &Scene, level: Level, threads: usize) -> Result<Self, SubjectError> {
-        let oath = Grid::new(plan, level, false, None).promise().into();
+        let oath = promise(plan.plan().arithmetic).into();
         let (name, plan) = (plan.name().to_owned(), chosen(plan, scene));
         let session = Tracer::new(plan.plan, level).workers(threads).session()?;
         Ok(Self { name, kind: Kind::Subject, plan, oath, session, known: None })
     }
 
-    /// The tracer with a plan picked by hand, of [`picked`].
+    /// The tracer with any plan, held to what its arithmetic promises.
     ///
     /// # Errors
     /// As [`Ours::new`].
-    pub fn picked((name, plan): (String, Plan), level: Level, threads: usize) -> Result<Self, SubjectError> {
+    pub fn of(name: String, plan: Plan, level: Level, threads: usize) -> Result<Self, SubjectError> {
         let session = Tracer::new(plan, level).workers(threads).session()?;
+        let oath: Oath = promise(plan.arithmetic).into();
         let plan = Chosen { plan, reasons: Vec::new() };
-        Ok(Self { name, kind: Kind::Picked, plan, oath: Oath::Exact, session, known: None })
+        Ok(Self { name, kind: Kind::Picked, plan, oath, session, known: None })
     }
 
     /// The same told what it will see, from the exact picture.

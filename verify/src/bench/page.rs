@@ -3,8 +3,9 @@
 
 use super::contestant::Kind;
 use super::data::{Bench, Curve, Row, SceneBench};
-use super::plot::{Axes, Series, plot, short};
+
 use super::text::sentences;
+use crate::plot::{Axes, Scaling, Series, plot, short};
 use crate::report::view::Badge;
 use crate::report::words::{NONE, count, duration, figure};
 use askama::Template;
@@ -127,7 +128,7 @@ fn line(row: &Row, own: Option<f64>) -> Line {
 fn class(row: &Row) -> &'static str {
     match row.kind {
         Kind::Subject => "subject",
-        Kind::Limit | Kind::Picked => "limit",
+        Kind::Limit | Kind::Picked | Kind::Naive => "limit",
         Kind::Embree => "embree",
         Kind::Peer if row.name == "bvh" => "peer",
         Kind::Peer => "other",
@@ -139,7 +140,7 @@ fn drawn(scene: &SceneBench) -> impl Iterator<Item = &Row> {
     scene.contestants.iter().filter(|row| match row.kind {
         Kind::Embree => Some(&row.name) == scene.embree_best.as_ref(),
         Kind::Picked => false,
-        Kind::Subject | Kind::Limit | Kind::Peer => true,
+        Kind::Subject | Kind::Limit | Kind::Naive | Kind::Peer => true,
     })
 }
 
@@ -157,8 +158,16 @@ fn overview(scenes: &[SceneBench]) -> Option<String> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of scenes")]
     let name = |x: f64| scenes.get(x as usize - 1).map_or_else(String::new, |scene| scene.name.clone());
     let axes =
-        Axes { x: "scenes", y: "Mray/s", x_word: &name, y_word: figure, logarithmic: false, joined: false };
-    plot("Millions of rays a second on each scene", axes, &series)
+        Axes {
+            x: "scenes",
+            y: "Mray/s",
+            x_word: &name,
+            y_word: figure,
+            x_scaling: Scaling::Linear,
+            y_scaling: Scaling::Logarithmic,
+            joined: false,
+        };
+    plot("Millions of rays a second on each scene", axes, &series, &[])
 }
 
 /// Points that belong together, in the order in which they are first met.
@@ -198,12 +207,13 @@ fn shown(curve: &Curve) -> Shown {
         y: "time of a frame",
         x_word: &short,
         y_word: duration,
-        logarithmic: curve.over != "threads",
+        x_scaling: if curve.over == "threads" { Scaling::Linear } else { Scaling::Logarithmic },
+        y_scaling: Scaling::Logarithmic,
         joined: true,
     };
     Shown {
         title,
-        chart: plot(&format!("Time of a frame over {}", curve.over), axes, &series),
+        chart: plot(&format!("Time of a frame over {}", curve.over), axes, &series, &[]),
         growth: curve.growth.iter().map(super::text::growth).collect(),
         tables: curve.points.iter().map(|point| table(&point.scene)).collect(),
     }

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 /// The contestant of a crate; of Embree there is none here, and `bvh` stands in.
 #[must_use]
-pub(super) fn entrant(peer: Outsider, camera: &Camera, threads: usize) -> Box<dyn Contestant> {
+pub(crate) fn entrant(peer: Outsider, camera: &Camera, threads: usize) -> Box<dyn Contestant> {
     let pixels = camera.size().pixels();
     Box::new(Entrant { peer, threads, ids: vec![MISS; pixels], t: vec![f32::INFINITY; pixels] })
 }

@@ -120,7 +120,10 @@ pub fn bench(
 }
 
 /// The exact picture, and how it came about.
-fn truth(
+///
+/// # Errors
+/// [`BenchError`] if there is none.
+pub fn truth(
     scene: &Scene,
     camera: &Camera,
     seed: u64,
@@ -156,8 +159,8 @@ fn entrants(
     let limit = Ours::clairvoyant(plan, input.scene, level, threads, truth)?;
     let mut entrants: Vec<Box<dyn Contestant>> = vec![Box::new(subject), Box::new(limit)];
     if picked {
-        for plan in super::ours::picked(input.scene) {
-            entrants.push(Box::new(Ours::picked(plan, level, threads)?));
+        for (name, plan) in super::ours::picked(input.scene) {
+            entrants.push(Box::new(Ours::of(name, plan, level, threads)?));
         }
     }
     entrants.extend(field.contestants(input.camera));

@@ -3,7 +3,7 @@
 
 use super::contestant::Kind;
 use super::data::{Bench, Curve, Growth, Row, SceneBench};
-use super::plot::short;
+use crate::plot::short;
 use crate::report::text::{clipped, style, wrapped};
 use crate::report::word;
 use crate::report::words::{NONE, count, duration, figure, sign};
@@ -60,7 +60,7 @@ fn shown(scene: &SceneBench) -> impl Iterator<Item = &Row> {
     scene.contestants.iter().filter(move |row| match row.kind {
         Kind::Embree => is_best(row, &scene.embree_best),
         Kind::Picked => is_best(row, &scene.picked_best),
-        Kind::Subject | Kind::Limit | Kind::Peer => true,
+        Kind::Subject | Kind::Limit | Kind::Naive | Kind::Peer => true,
     })
 }
 

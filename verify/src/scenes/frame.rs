@@ -231,7 +231,8 @@ impl Pyramid {
 }
 
 /// The middle of the box round all spheres; the origin if there are none.
-fn middle<'a>(spheres: impl Iterator<Item = &'a Sphere>) -> Vector {
+#[must_use]
+pub fn middle<'a>(spheres: impl Iterator<Item = &'a Sphere>) -> Vector {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for sphere in spheres {
         let radius = f64::from(sphere.radius);

@@ -5,7 +5,7 @@ use super::curves::Curve;
 use super::data::Report;
 use super::survey::Survey;
 use super::text::text;
-use crate::bench::plot::{Axes, Series, plot, short};
+use crate::plot::{Axes, Scaling, Series, plot, short};
 use crate::report::words::figure;
 use askama::Template;
 
@@ -79,8 +79,9 @@ fn chart(curve: &Curve, title: &str, y: &'static str, lines: Vec<(String, Figure
         .filter(|series: &Series| !series.points.is_empty())
         .collect();
     let x = if curve.over == "spheres" { "spheres" } else { "cells on an axis" };
-    let axes = Axes { x, y, x_word: &short, y_word: figure, logarithmic: true, joined: true };
-    Some(Chart { title: title.into(), svg: plot(title, axes, &series)? })
+    let scaling = Scaling::Logarithmic;
+    let axes = Axes { x, y, x_word: &short, y_word: figure, x_scaling: scaling, y_scaling: scaling, joined: true };
+    Some(Chart { title: title.into(), svg: plot(title, axes, &series, &[])? })
 }
 
 fn charts(curve: &Curve) -> Vec<Chart> {

@@ -35,6 +35,8 @@ Examples:
   cgt verify uniform:5000:1 own.pdb     a generated scene and a file
   cgt render sphereflake:4 flake.png --size 800x600
   cgt bench 1hvr --peers embree --threads 1
+  cgt chart 1hvr                        speed against error, every method
+  cgt stability                         where each method breaks
   cgt spu 1hvr                          cycles on a PlayStation 3, stage by stage
   cgt prove                             proofs of the kernels, by solvers
   cgt replay tests/cases/NAME.json      a case again, its pixel step by step
@@ -46,6 +48,10 @@ pub(crate) enum Command {
     Verify(Verify),
     /// Time the grid tracer, its limit and other people's tracers, each checked before it is timed
     Bench(Bench),
+    /// Chart every method's speed against its error, from near and from far
+    Chart(Chart),
+    /// Map where every method breaks: over distance, scale, cells, crowds, tangency, angle, offset
+    Stability(Stability),
     #[allow(clippy::doc_markdown, reason = "shown to people as it stands")]
     /// Render one scene to a PNG or OpenEXR file
     Render(Render),
@@ -150,6 +156,46 @@ pub(crate) struct Bench {
     pub(crate) tolerance: f64,
     #[command(flatten)]
     pub(crate) view: View,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Chart {
+    /// Scenes, as for `verify` [default: 1hvr, sphereflake:3 and 2000 random spheres]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// How many times as far as by default the eye stands, with commas between; the scene stays as large in the picture
+    #[arg(long, value_name = "TIMES", value_delimiter = ',', default_value = "1,10,100,1000", value_parser = times)]
+    pub(crate) far: Vec<f64>,
+    /// Rounds of measuring
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u16).range(1..=10_000))]
+    pub(crate) rounds: u16,
+    /// On the SPU model trace one of so many blocks; they stand for all
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = value_parser!(u32).range(1..=1000))]
+    pub(crate) sample: u32,
+    /// SIMD level of the grid tracer [default: the best, or the one that CGT_LEVEL names]; the exact plan is timed at every other too
+    #[arg(long, value_name = "LEVEL")]
+    pub(crate) level: Option<String>,
+    /// Folder for a page that opens offline, chart.html, with the same data in chart.json and chart.csv beside it
+    #[arg(long, value_name = "FOLDER", default_value = "cgt-chart")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) view: View,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Stability {
+    /// Scenes on which grid and packet are turned up [default: 1hvr, 2juy, sphereflake:3 and 2000 random spheres]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// Rays at each value; what happens once in a million is seen with a million alone
+    #[arg(long, value_name = "N", default_value_t = 262_144, value_parser = value_parser!(u64).range(1..=1_000_000_000))]
+    pub(crate) rays: u64,
+    /// SIMD level of the grid tracer, and of Embree [default: the best, or the one that CGT_LEVEL names]
+    #[arg(long, value_name = "LEVEL")]
+    pub(crate) level: Option<String>,
+    /// Folder for a page that opens offline, stability.html, with the same data in stability.json and stability.csv beside it
+    #[arg(long, value_name = "FOLDER", default_value = "cgt-stability")]
+    pub(crate) out: PathBuf,
 }
 
 #[derive(Args, Debug)]
@@ -346,6 +392,11 @@ fn range(text: &str) -> Result<Range<usize>, String> {
 fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse::<f64>().map_err(|e| e.to_string())?;
     if (0.0..=86_400.0).contains(&seconds) { Ok(seconds) } else { Err("expected 0 to 86400".into()) }
+}
+
+fn times(text: &str) -> Result<f64, String> {
+    let times = text.trim().parse::<f64>().map_err(|e| e.to_string())?;
+    if (1e-3..=1e4).contains(&times) { Ok(times) } else { Err("expected 0.001 to 10000".into()) }
 }
 
 fn percent(text: &str) -> Result<f64, String> {

@@ -23,6 +23,8 @@ fn main() -> ExitCode {
         Some(Command::Verify(args)) => cmd::verify::verify(&args),
         Some(Command::Render(args)) => cmd::render::render(&args),
         Some(Command::Bench(args)) => cmd::bench::run(&args),
+        Some(Command::Chart(args)) => cmd::chart::run(&args),
+        Some(Command::Stability(args)) => cmd::stability::run(&args),
         Some(Command::Spu(args)) => cmd::spu::run(&args),
         Some(Command::Prove(args)) => cmd::prove::run(&args),
         Some(Command::Replay(args)) => cmd::replay::run(&args),

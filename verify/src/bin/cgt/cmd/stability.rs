@@ -1,0 +1,62 @@
+//! `cgt stability`: where every method breaks, on the terminal and into files out.
+
+use super::files;
+use super::verify::warn;
+use crate::args::Stability as Args;
+use crate::environment::environment;
+use crate::{Failure, progress, say};
+use contract::Size;
+use optimized::Level;
+use std::process::ExitCode;
+use verify::methods::{Family, Method, swept};
+use verify::picture::{check_folder, write_atomically};
+use verify::report::Absent;
+use verify::scenes::catalogue::Source;
+use verify::seed::seed;
+use verify::stability::measure::Named;
+use verify::stability::{Asked, SCHEMA_VERSION, Stability, page, stability, steps, text};
+
+/// Scenes on which grid and packet are turned up, where none is named.
+const SCENES: [&str; 4] = ["1hvr", "2juy", "sphereflake:3", "uniform:2000:1"];
+/// Columns and rows of a picture where no size is asked for.
+const SIZE: [u32; 2] = [320, 180];
+
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    check_folder(&args.out)?;
+    let found = found(args)?;
+    std::fs::create_dir_all(&args.out).map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
+    write_atomically(&args.out.join("stability.csv"), &found.csv()?)?;
+    files::write("stability", (None, Some(&args.out)), &found, page::page)?;
+    say(&text::text(&found))?;
+    say(&format!("page: {}\n", args.out.join("stability.html").display()))?;
+    // What promises the truth and is not right is a mismatch.
+    let lines = found.curves.iter().flat_map(|curve| &curve.lines).filter(|line| line.family == Family::Exact);
+    let wrong = lines.flat_map(|line| &line.counts).any(|count| count.wrong > 0 || count.refused > 0);
+    Ok(if wrong { ExitCode::from(1) } else { ExitCode::SUCCESS })
+}
+
+/// Measures all of it.
+pub(crate) fn found(args: &Args) -> Result<Stability, Failure> {
+    let level = args.level.as_deref().map_or_else(Level::best, Level::named)?;
+    let names = if args.scenes.is_empty() { SCENES.map(str::to_owned).to_vec() } else { args.scenes.clone() };
+    let mut scenes = Vec::new();
+    for word in &names {
+        let loaded = Source::parse(word)?.load()?;
+        warn(&loaded);
+        let mut framing = loaded.framing.unwrap_or_default();
+        framing.size = Some(Size::new(SIZE[0], SIZE[1])?);
+        let scene = loaded.animation.frames().first().ok_or_else(|| format!("{word} has no frame"))?.clone();
+        scenes.push(Named { name: word.clone(), camera: framing.camera(&loaded.animation)?, scene });
+    }
+    let mut absent: Vec<Absent> = Vec::new();
+    // Who is missing is missing everywhere.
+    _ = swept(None, level, &mut absent);
+    let methods = |cells| -> Vec<Method> { swept(cells, level, &mut Vec::new()) };
+    let seed = seed();
+    let asked = Asked { methods: &methods, level, rays: args.rays, seed, scenes: &scenes };
+    let tick = progress::bar("stability", "values", steps(scenes.len()));
+    let (curves, maps) = stability(&asked, &*tick);
+    let mut environment = environment(1, &[level]);
+    environment.seed = Some(seed);
+    Ok(Stability { schema_version: SCHEMA_VERSION, kind: "stability", environment, absent, rays: args.rays, curves, maps })
+}

@@ -1,0 +1,127 @@
+//! One view: the exact picture, every method's picture held against it, then all of them timed in turn.
+
+use super::data::{Point, View};
+use super::view::Distance;
+use crate::bench::contestant::{Contestant, Layers};
+use crate::bench::rounds::{Effort, rounds};
+use crate::bench::scene::{BenchError, Progress, truth};
+use crate::judge::compare::compare;
+use crate::methods::Method;
+use crate::spu::cost::{SPUS, frame_cost};
+use crate::spu::model::measure_nearest;
+use crate::spu::predict::Policy;
+use crate::spu::store::Buffers;
+use crate::verdict::Comparison;
+use contract::{Image, Scene};
+use std::time::Duration;
+
+/// What is measured.
+#[derive(Clone, Copy)]
+pub struct Asked<'a> {
+    /// The scene's name.
+    pub name: &'a str,
+    /// Its frame.
+    pub frame: usize,
+    /// The frame's spheres.
+    pub scene: &'a Scene,
+    /// Who takes part.
+    pub methods: &'a [Method],
+    /// Rounds of measuring.
+    pub rounds: usize,
+    /// On the SPU model one block of so many is traced; they stand for all.
+    pub every: u32,
+    /// Of random rays, where the truth is sampled.
+    pub seed: u64,
+}
+
+/// Measures a view.
+///
+/// # Errors
+/// [`BenchError`] if there is no truth, or a method gives up in the middle.
+pub fn measure(asked: &Asked<'_>, at: &Distance, progress: Progress<'_>) -> Result<View, BenchError> {
+    let Asked { scene, methods, .. } = *asked;
+    let camera = &at.camera;
+    let (image, found) = truth(scene, camera, asked.seed, progress)?;
+    let tick = progress("methods", u32::try_from(methods.len()).unwrap_or(u32::MAX));
+    let (mut points, mut entrants, mut places) = (Vec::new(), Vec::new(), Vec::new());
+    for method in methods {
+        let mut point = Point {
+            method: method.name.clone(),
+            family: method.family,
+            description: String::new(),
+            ns_per_ray: None,
+            spu_cycles_per_ray: None,
+            comparison: None,
+            paints: false,
+            remark: None,
+        };
+        match method.contestant(scene, camera) {
+            Err(error) => point.remark = Some(format!("Did not begin: {error}.")),
+            Ok(mut entrant) => {
+                point.description = entrant.description();
+                match entrant.frame(scene, camera).map_err(|error| error.to_string()).and_then(|frame| {
+                    point.paints = frame.layers.rgba.is_some();
+                    held(&image, frame.layers)
+                }) {
+                    Err(why) => point.remark = Some(format!("Gave no picture: {why}.")),
+                    Ok(comparison) => {
+                        point.comparison = Some(comparison);
+                        places.push(points.len());
+                        entrants.push(entrant);
+                    }
+                }
+            }
+        }
+        if let Some(plan) = method.on_spu {
+            point.spu_cycles_per_ray = measure_nearest(plan, scene, camera, asked.every, &|| ()).ok().and_then(|m| {
+                let cost = frame_cost(&m, scene.spheres().len(), Policy::Hinted, Buffers::Single).ok()?;
+                let rays = camera.size().pixels() as f64;
+                Some(cost.cycles.map(|cycles| cycles * SPUS as f64 / rays))
+            });
+        }
+        points.push(point);
+        tick();
+    }
+    time(asked, at, &mut points, &places, &mut entrants, progress)?;
+    Ok(View {
+        scene: asked.name.into(),
+        frame: asked.frame,
+        spheres: scene.spheres().len(),
+        size: [camera.size().width(), camera.size().height()],
+        times_as_far: at.times,
+        radii: at.radii,
+        hits: found.hits as u64,
+        rounds: asked.rounds,
+        points,
+    })
+}
+
+/// Layers against the exact picture; colours that are not painted count as right.
+fn held(truth: &Image, layers: Layers<'_>) -> Result<Comparison, String> {
+    let rgba = layers.rgba.unwrap_or(&truth.rgba).to_vec();
+    let image = Image { size: truth.size, ids: layers.ids.to_vec(), t: layers.t.to_vec(), rgba };
+    compare(truth, &image).map_err(|error| error.to_string())
+}
+
+/// Times those that gave a picture.
+fn time(
+    asked: &Asked<'_>,
+    at: &Distance,
+    points: &mut [Point],
+    places: &[usize],
+    entrants: &mut [Box<dyn Contestant>],
+    progress: Progress<'_>,
+) -> Result<(), BenchError> {
+    if entrants.is_empty() {
+        return Ok(());
+    }
+    let tick = progress("rounds", u32::try_from(asked.rounds).unwrap_or(u32::MAX));
+    let effort = Effort { rounds: Some(asked.rounds), time: Duration::ZERO };
+    let (taken, _) =
+        rounds(entrants, asked.scene, &at.camera, effort, &*tick).map_err(BenchError::Contestant)?;
+    let rays = at.camera.size().pixels() as f64;
+    for (place, taken) in places.iter().zip(taken) {
+        points[*place].ns_per_ray = taken.timing().map(|timing| timing.total.median * 1e9 / rays);
+    }
+    Ok(())
+}
