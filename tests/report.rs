@@ -41,6 +41,7 @@ fn subject(name: &str, verdict: Verdict) -> SubjectReport {
         name: name.to_owned(),
         description: format!("{name} & its description"),
         promise: format!("promise of {name}"),
+        known_fault: false,
         verdict,
         because: format!("reason for {name}"),
         comparison: (verdict != Verdict::NotJudged).then_some(comparison),
@@ -157,7 +158,7 @@ fn pictures(report: &Report) -> Result<Vec<ScenePictures>, Box<dyn Error>> {
 
 fn page() -> Result<String, Box<dyn Error>> {
     let report = report()?;
-    Ok(html(&report, &pictures(&report)?)?)
+    Ok(html(&report, &pictures(&report)?, &[])?)
 }
 
 /// As HTML escapes it, in the form this page uses.
@@ -261,7 +262,7 @@ fn every_picture_on_the_page_has_words() -> Outcome {
 fn an_empty_report_is_not_judged() -> Outcome {
     let empty = Report { scenes: Vec::new(), claims: Vec::new(), absent: Vec::new(), ..report()? };
     assert_eq!(overall(&empty.scenes, &[]), Verdict::NotJudged);
-    assert!(html(&empty, &[])?.contains("</html>"));
+    assert!(html(&empty, &[], &[])?.contains("</html>"));
     assert!(text(&empty, false).contains("subject"));
     Ok(())
 }
@@ -367,7 +368,7 @@ fn folder_holds_page_data_and_pictures() -> Outcome {
     let report = report()?;
     let home = tempfile::tempdir()?;
     let folder = home.path().join("made").join("anew");
-    let paths = write(&folder, &report, &pictures(&report)?)?;
+    let paths = write(&folder, &report, &pictures(&report)?, &[])?;
     let mut files: Vec<_> = std::fs::read_dir(&folder)?
         .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
         .collect::<std::io::Result<_>>()?;
@@ -396,7 +397,7 @@ fn every_picture_has_a_file_of_its_own() -> Outcome {
     report.scenes[1].name = "a/B".to_owned();
     report.scenes.iter_mut().flat_map(|scene| &mut scene.subjects).for_each(|s| s.name = "é".to_owned());
     let folder = tempfile::tempdir()?;
-    let paths = write(folder.path(), &report, &pictures(&report)?)?;
+    let paths = write(folder.path(), &report, &pictures(&report)?, &[])?;
     let different: HashSet<_> = paths.pictures.iter().collect();
     assert_eq!(different.len(), 10);
     assert!(different.contains(&folder.path().join("a-b-truth-2.png")), "{different:?}");
@@ -422,11 +423,11 @@ fn file_names_are_tame() {
 fn pictures_that_do_not_match_are_refused() -> Outcome {
     let report = report()?;
     let folder = tempfile::tempdir()?;
-    let refused = write(folder.path(), &report, &[]);
+    let refused = write(folder.path(), &report, &[], &[]);
     assert!(matches!(refused, Err(ReportError::Scenes { scenes: 2, pictures: 0 })));
     let mut sets = pictures(&report)?;
     sets[1].skip();
-    let refused = write(folder.path(), &report, &sets);
+    let refused = write(folder.path(), &report, &sets, &[]);
     assert!(matches!(refused, Err(ReportError::Subjects { subjects: 5, pictures: 6, .. })));
     assert_eq!(std::fs::read_dir(folder.path())?.count(), 0);
     Ok(())
@@ -438,11 +439,11 @@ fn a_failed_report_has_no_page() -> Outcome {
     let report = report()?;
     let folder = tempfile::tempdir()?;
     std::fs::create_dir_all(folder.path().join("report.json").join("x"))?;
-    let failed = write(folder.path(), &report, &pictures(&report)?);
+    let failed = write(folder.path(), &report, &pictures(&report)?, &[]);
     assert!(matches!(failed, Err(ReportError::Write(_))));
     assert!(!folder.path().join("report.html").exists());
     let below_a_file = folder.path().join("bar-truth.png").join("deeper");
-    assert!(matches!(write(&below_a_file, &report, &pictures(&report)?), Err(ReportError::Folder { .. })));
+    assert!(matches!(write(&below_a_file, &report, &pictures(&report)?, &[]), Err(ReportError::Folder { .. })));
     Ok(())
 }
 

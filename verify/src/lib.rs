@@ -45,6 +45,8 @@ pub mod properties;
 
 pub mod bench;
 
+pub mod ablation;
+pub mod advice;
 pub mod chart;
 pub mod methods;
 pub mod stability;

@@ -124,7 +124,9 @@ impl Method {
         Self { name, family, on_spu: None, maker }
     }
 
-    fn with_spu(self, plan: Plan) -> Self {
+    /// The same with a plan that the SPU model can run.
+    #[must_use]
+    pub fn with_spu(self, plan: Plan) -> Self {
         Self { on_spu: Some(plan), ..self }
     }
 }

@@ -147,6 +147,7 @@ fn blank(subject: &dyn Subject) -> SubjectReport {
         name: subject.name().into(),
         description: subject.description().into(),
         promise: subject.promise().words(),
+        known_fault: false,
         verdict: Verdict::NotJudged,
         because: String::new(),
         comparison: None,

@@ -29,7 +29,7 @@ pub mod curves;
 
 pub mod baseline;
 pub mod data;
-mod page;
+pub mod page;
 pub mod text;
 
 pub use curves::curves;

@@ -15,12 +15,18 @@ use askama::Template;
 struct Page<'a> {
     bench: &'a Bench,
     badge: Badge,
+    part: String,
+    seed: String,
+}
+
+#[derive(Template)]
+#[template(path = "bench-part.html")]
+struct Part {
     said: Vec<String>,
     tops: Vec<(&'static str, String)>,
     overview: Option<String>,
     tables: Vec<Table>,
     curves: Vec<Shown>,
-    seed: String,
 }
 
 /// A scene's contestants.
@@ -53,6 +59,15 @@ struct Shown {
 /// # Errors
 /// If the template fails, which its types give no cause for.
 pub fn page(bench: &Bench) -> Result<String, askama::Error> {
+    let seed = bench.environment.seed.map_or_else(|| "none".into(), |seed| seed.to_string());
+    Page { bench, badge: bench.verdict().into(), part: part(bench)?, seed }.render()
+}
+
+/// What of it stands in a page of more.
+///
+/// # Errors
+/// As [`page`].
+pub fn part(bench: &Bench) -> Result<String, askama::Error> {
     let summary = bench.summary;
     let tops = [
         ("times as fast as Embree, geometric mean", summary.ratio_to_embree_mean),
@@ -61,17 +76,14 @@ pub fn page(bench: &Bench) -> Result<String, askama::Error> {
         ("times at most", summary.ratio_to_limit_most),
         ("times the best plan's time at most", summary.ratio_to_picked_most),
     ];
-    let page = Page {
-        bench,
-        badge: bench.verdict().into(),
+    let part = Part {
         said: sentences(bench),
         tops: tops.into_iter().filter_map(|(what, value)| Some((what, figure(value?)))).collect(),
         overview: overview(&bench.scenes),
         tables: bench.scenes.iter().map(table).collect(),
         curves: bench.curves.iter().map(shown).collect(),
-        seed: bench.environment.seed.map_or_else(|| "none".into(), |seed| seed.to_string()),
     };
-    page.render()
+    part.render()
 }
 
 fn table(scene: &SceneBench) -> Table {

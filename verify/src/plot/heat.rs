@@ -28,8 +28,8 @@ pub(crate) struct Heat<'a> {
     pub(crate) cells: Vec<Vec<Cell>>,
     /// Lines between two columns, before the one of that number, and what they mean.
     pub(crate) marks: Vec<(usize, String)>,
-    /// The same between two rows.
-    pub(crate) row_marks: Vec<(usize, String)>,
+    /// Lines between two rows, above the one of that number.
+    pub(crate) row_marks: Vec<usize>,
 }
 
 /// The smallest rate that has a colour of its own; what is below has the faintest.
@@ -93,10 +93,9 @@ pub(crate) fn heat(map: &Heat<'_>) -> Option<String> {
         line(&mut svg, "mark", [at, TOP - 6.0], [at, bottom]);
         words(&mut svg, if at > 450.0 { "end" } else { "start" }, [at, TOP - 10.0], label);
     }
-    for (row, label) in &map.row_marks {
+    for row in &map.row_marks {
         let at = TOP + HIGH * *row as f64;
-        line(&mut svg, "mark", [LEFT - 6.0, at], [RIGHT, at]);
-        words(&mut svg, "start", [4.0, at + 4.0], label);
+        line(&mut svg, "mark", [LEFT - 100.0, at], [RIGHT, at]);
     }
     scale(&mut svg, bottom + 52.0);
     Some(svg + "</svg>")

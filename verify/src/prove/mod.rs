@@ -9,6 +9,7 @@
 pub mod broken;
 pub mod claims;
 pub mod prover;
+pub mod page;
 pub mod run;
 pub mod smt;
 pub mod solver;

@@ -8,7 +8,7 @@ use contract::Camera;
 use serde::Serialize;
 
 /// Version of the layout of `report.json`.
-pub const SCHEMA_VERSION: u32 = 2;
+pub const SCHEMA_VERSION: u32 = 3;
 
 /// Everything one run found out.
 #[derive(Clone, Debug, Serialize)]
@@ -136,6 +136,8 @@ pub struct SubjectReport {
     pub description: String,
     /// What it promises, in words: the judge holds it to this.
     pub promise: String,
+    /// Whether it is shown as a known fault: then its verdict is its own, and not the run's.
+    pub known_fault: bool,
     /// The verdict.
     pub verdict: Verdict,
     /// Why that verdict.
@@ -232,14 +234,15 @@ impl From<&Camera> for CameraRecord {
 }
 
 /// The verdict on a whole run: its worst part. One wrong subject or witness makes it wrong, one that nobody judged makes
-/// it not judged, and so do a judge that was asked for and is absent, and an empty run.
+/// it not judged, and so do a judge that was asked for and is absent, and an empty run. A known fault is shown and not counted.
 #[must_use]
 pub fn overall(scenes: &[SceneReport], absent: &[Absent]) -> Verdict {
-    let subjects = scenes.iter().flat_map(|scene| &scene.subjects).map(|subject| subject.verdict);
+    let counted = || scenes.iter().flat_map(|scene| &scene.subjects).filter(|subject| !subject.known_fault);
+    let subjects = counted().map(|subject| subject.verdict);
     let witnesses = scenes.iter().flat_map(|scene| &scene.outside).map(Hearing::verdict);
     let missing = absent.iter().filter(|judge| judge.needed).map(|_| Verdict::NotJudged);
     // Witnesses alone are no run: what is judged is subjects.
-    if scenes.iter().all(|scene| scene.subjects.is_empty()) {
+    if counted().next().is_none() {
         return Verdict::NotJudged;
     }
     let verdicts = subjects.chain(witnesses).chain(missing);

@@ -4,7 +4,7 @@
 //! anything is written.
 
 use super::names::Names;
-use super::{Report, ScenePictures, SceneReport, html, json};
+use super::{Part, Report, ScenePictures, SceneReport, html, json};
 use crate::picture::{WriteError, write_atomically};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -62,14 +62,19 @@ pub enum ReportError {
 }
 
 /// Writes the report and its pictures into the folder, which is made if it is missing. `pictures` has one entry
-/// for each scene; an entry without any picture stands for a scene that shows none.
+/// for each scene; an entry without any picture stands for a scene that shows none. `parts` follow the scenes on the page.
 ///
 /// # Errors
 /// [`ReportError`], which names the scene, file or folder.
-pub fn write(folder: &Path, report: &Report, pictures: &[ScenePictures]) -> Result<Paths, ReportError> {
+pub fn write(
+    folder: &Path,
+    report: &Report,
+    pictures: &[ScenePictures],
+    parts: &[Part],
+) -> Result<Paths, ReportError> {
     check(report, pictures)?;
     let (named, files) = name_pictures(report, pictures);
-    let (page, data) = (html(&named, pictures)?, json(&named)?);
+    let (page, data) = (html(&named, pictures, parts)?, json(&named)?);
     std::fs::create_dir_all(folder)
         .map_err(|cause| ReportError::Folder { path: folder.to_path_buf(), cause })?;
     let mut written = Vec::with_capacity(files.len());

@@ -1,7 +1,8 @@
-//! The report as one HTML page that needs nothing but itself: style inline, pictures as `data:` URIs, no script.
-//! A [`Report`] and the pictures of its scenes come in, the page goes out. All text is escaped by the template
-//! `templates/report.html`; its content security policy forbids it to load anything.
+//! The report as one HTML page that needs nothing but itself: style inline, pictures as `data:` URIs, and one script that turns films.
+//! A [`Report`], the pictures of its scenes and what else belongs on the page come in, the page goes out. All text is escaped by the template
+//! `templates/report.html`; its content security policy forbids it to load anything, and any script but that one, which it knows by its hash.
 
+use super::film::{Item, items};
 use super::outside;
 use super::pictures::ZOOM_SIDE;
 use super::view::{Badge, HEADINGS, SceneView};
@@ -9,6 +10,23 @@ use super::words::{VERDICTS, sentence};
 use super::{Evidence, Report, ScenePictures};
 use crate::picture::{PALETTE, RARE};
 use askama::Template;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use sha2::{Digest, Sha256};
+
+/// The page's script.
+const SCRIPT: &str = include_str!("../../templates/report.js");
+
+/// A chapter of the page that other modules wrote, in the style of this one.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its anchor.
+    pub anchor: &'static str,
+    /// Its heading.
+    pub title: String,
+    /// Its HTML, all text in it escaped.
+    pub body: String,
+}
 
 #[derive(Template)]
 #[template(path = "report.html")]
@@ -25,16 +43,23 @@ struct Page<'a> {
     seed: Option<String>,
     evidence: Vec<(&'static str, usize)>,
     columns: Vec<&'a str>,
-    scenes: Vec<SceneView<'a>>,
+    scenes: &'a [SceneView<'a>],
+    items: Vec<Item<'a>>,
+    parts: &'a [Part],
+    script: &'static str,
+    script_hash: String,
 }
 
-/// The page. `pictures` has one entry for each scene; what lacks is left out of the page.
+/// The page. `pictures` has one entry for each scene; what lacks is left out of the page. `parts` follow the scenes.
 ///
 /// # Errors
 /// If the template fails, which its types give no cause for.
-pub fn html(report: &Report, pictures: &[ScenePictures]) -> Result<String, askama::Error> {
+pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Result<String, askama::Error> {
     let none = ScenePictures::default();
     let scenes = report.scenes.iter().enumerate();
+    let scenes: Vec<SceneView<'_>> = scenes
+        .map(|(k, scene)| SceneView::new(k + 1, scene, pictures.get(k).unwrap_or(&none)))
+        .collect();
     let page = Page {
         report,
         badge: report.verdict.into(),
@@ -57,9 +82,11 @@ pub fn html(report: &Report, pictures: &[ScenePictures]) -> Result<String, askam
         seed: report.environment.seed.map(|seed| seed.to_string()),
         evidence: Evidence::ALL.iter().map(|kind| (kind.word(), rests_on(report, *kind))).collect(),
         columns: columns(report),
-        scenes: scenes
-            .map(|(k, scene)| SceneView::new(k + 1, scene, pictures.get(k).unwrap_or(&none)))
-            .collect(),
+        items: items(&scenes),
+        scenes: &scenes,
+        parts,
+        script: SCRIPT,
+        script_hash: BASE64_STANDARD.encode(Sha256::digest(SCRIPT)),
     };
     page.render()
 }

@@ -7,6 +7,7 @@
 
 mod chart;
 mod data;
+mod film;
 mod folder;
 mod html;
 mod json;
@@ -22,7 +23,7 @@ pub use data::{
     SubjectReport, Vector, overall,
 };
 pub use folder::{Paths, ReportError, write};
-pub use html::html;
+pub use html::{Part, html};
 pub use json::json;
 pub use names::sanitized;
 pub use pictures::ScenePictures;

@@ -98,8 +98,8 @@ pub struct Map {
     pub counts: Vec<Vec<Count>>,
     /// The first column beyond an assumption, and what it is.
     pub marks: Vec<(usize, String)>,
-    /// The same of rows.
-    pub row_marks: Vec<(usize, String)>,
+    /// The first row beyond an assumption.
+    pub row_marks: Vec<usize>,
 }
 
 impl Count {

@@ -30,13 +30,13 @@ pub const RELATIONS: [Relation; 3] = [
         name: "turned",
         title: "Turned by 90 degrees",
         axis: "distance by radius",
-        what: "One ball of a cloud, and all of it turned by a quarter about an axis: what was x is y, what was y is −x.",
+        what: "One ball of a cloud, and all of it turned by a quarter about the x axis: what was y is z, what was z is −y. Sums of three squares are then added in another order.",
         values: || (2..=16).map(|k| 10f64.powf(f64::from(k) / 2.0)).collect(),
         easy: 10.0,
         pair: |radii, rng| {
             let (balls, toward) = (cloud(rng), direction(rng));
             let shot = aimed(&balls, radii, toward, rng)?;
-            let turn = |v: [f32; 3]| [-v[1], v[0], v[2]];
+            let turn = |v: [f32; 3]| [v[0], -v[2], v[1]];
             let turned = changed(&shot, turn, turn, 1.0)?;
             Some([shot, turned])
         },

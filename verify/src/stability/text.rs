@@ -16,7 +16,7 @@ pub fn text(stability: &Stability) -> String {
         _ = writeln!(text, "\n{} ({}), up to {} rays a value", curve.title, curve.axis, count(compared));
         _ = writeln!(
             text,
-            "  {:<26}{:>12}{:>12}{:>12}{:>12}{:>14}",
+            "  {:<26}{:>22}{:>12}{:>22}{:>22}{:>14}",
             "method", WORDS[0], WORDS[1], WORDS[2], WORDS[3], "most"
         );
         for line in &curve.lines {
@@ -31,7 +31,7 @@ pub fn text(stability: &Stability) -> String {
             let cells = [0, 1, 2, 3].map(either);
             _ = writeln!(
                 text,
-                "  {:<26}{:>12}{:>12}{:>12}{:>12}{:>14}",
+                "  {:<26}{:>22}{:>12}{:>22}{:>22}{:>14}",
                 line.method,
                 cells[0],
                 cells[1],
@@ -43,10 +43,10 @@ pub fn text(stability: &Stability) -> String {
     }
     for map in &stability.maps {
         _ = writeln!(text, "\n{} ({})", map.title, map.axis);
-        _ = writeln!(text, "  {:<28}{}", "", map.columns.iter().map(|c| format!("{c:>9}")).collect::<String>());
+        _ = writeln!(text, "  {:<32}{}", "", map.columns.iter().map(|c| format!("{c:>11}")).collect::<String>());
         for (row, counts) in map.rows.iter().zip(&map.counts) {
-            let cells = counts.iter().map(|c| format!("{:>9}", c.rate().map_or_else(|| "–".to_owned(), share)));
-            _ = writeln!(text, "  {row:<28}{}", cells.collect::<String>());
+            let cells = counts.iter().map(|c| format!("{:>11}", c.rate().map_or_else(|| "–".to_owned(), share)));
+            _ = writeln!(text, "  {row:<32}{}", cells.collect::<String>());
         }
     }
     for absent in &stability.absent {

@@ -34,9 +34,11 @@ Examples:
   cgt verify 2juy --frame 3 --plan safe
   cgt verify uniform:5000:1 own.pdb     a generated scene and a file
   cgt render sphereflake:4 flake.png --size 800x600
+  cgt report                            all of it on one page, in some minutes
   cgt bench 1hvr --peers embree --threads 1
   cgt chart 1hvr                        speed against error, every method
   cgt stability                         where each method breaks
+  cgt ablate 1hvr                       what each choice of a plan buys
   cgt spu 1hvr                          cycles on a PlayStation 3, stage by stage
   cgt prove                             proofs of the kernels, by solvers
   cgt replay tests/cases/NAME.json      a case again, its pixel step by step
@@ -46,12 +48,16 @@ Examples:
 pub(crate) enum Command {
     /// Judge tracers on scenes and write a report (the default)
     Verify(Verify),
+    /// Make the whole report: pictures, speed against error, where methods break, what each choice buys, proofs
+    Report(Report),
     /// Time the grid tracer, its limit and other people's tracers, each checked before it is timed
     Bench(Bench),
     /// Chart every method's speed against its error, from near and from far
     Chart(Chart),
     /// Map where every method breaks: over distance, scale, cells, crowds, tangency, angle, offset
     Stability(Stability),
+    /// Change one choice of a plan at a time: what does each buy, in time, in cycles, in right pixels?
+    Ablate(Ablate),
     #[allow(clippy::doc_markdown, reason = "shown to people as it stands")]
     /// Render one scene to a PNG or OpenEXR file
     Render(Render),
@@ -93,11 +99,39 @@ pub(crate) struct Verify {
     /// Have the exact pictures themselves judged by a tracer from outside; without it there is then no verdict
     #[arg(long, value_name = "NAME", value_parser = [EMBREE])]
     pub(crate) judges: Vec<String>,
+    /// Frames of an animation, from and to, counted from 0, the last one not among them; the page then has a slider
+    #[arg(long, value_name = "A..B", value_parser = range, conflicts_with = "frame")]
+    pub(crate) frames: Option<Range<usize>>,
     /// Folder of the report; files of the same names in it are replaced
     #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
     pub(crate) out: PathBuf,
     #[command(flatten)]
     pub(crate) view: View,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Report {
+    /// Scenes, as for `verify` [default: 1hvr, sphereflake:3 and 2000 random spheres]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// Animation of which every frame is judged; `none` for none
+    #[arg(long, value_name = "SCENE", default_value = "2juy")]
+    pub(crate) film: String,
+    /// Rays at each value of the maps of where methods break
+    #[arg(long, value_name = "N", default_value_t = 65_536, value_parser = value_parser!(u64).range(1..=1_000_000_000))]
+    pub(crate) rays: u64,
+    /// Rounds of measuring, wherever time is measured
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u16).range(1..=10_000))]
+    pub(crate) rounds: u16,
+    /// Pixels of pictures and of what is timed; of a film 480x270 [default: 640x360]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub(crate) size: Option<Size>,
+    /// Threads, at most 1024; 0 is one a core
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u16).range(..=1024))]
+    pub(crate) threads: u16,
+    /// Folder of the report, with the data of each chapter beside it; files of the same names in it are replaced
+    #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
+    pub(crate) out: PathBuf,
 }
 
 /// What a benchmark is of, where no scene is named.
@@ -182,6 +216,29 @@ pub(crate) struct Chart {
     pub(crate) view: View,
 }
 
+impl Bench {
+    /// Some scenes in a view, and what else is asked for by default.
+    pub(crate) fn of(scenes: &[String], view: &View) -> Self {
+        Self {
+            scenes: scenes.to_vec(),
+            peers: Vec::new(),
+            plan: PLANS[0].into(),
+            level: None,
+            rounds: None,
+            seconds: 0.0,
+            plans: false,
+            curves: false,
+            most_spheres: 0,
+            most_rows: 0,
+            json: None,
+            out: None,
+            baseline: None,
+            tolerance: 0.0,
+            view: view.clone(),
+        }
+    }
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct Stability {
     /// Scenes on which grid and packet are turned up [default: 1hvr, 2juy, sphereflake:3 and 2000 random spheres]
@@ -196,6 +253,27 @@ pub(crate) struct Stability {
     /// Folder for a page that opens offline, stability.html, with the same data in stability.json and stability.csv beside it
     #[arg(long, value_name = "FOLDER", default_value = "cgt-stability")]
     pub(crate) out: PathBuf,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Ablate {
+    /// Scenes, as for `verify` [default: 1hvr, sphereflake:3 and 2000 random spheres]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// Rounds of measuring
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = value_parser!(u16).range(1..=10_000))]
+    pub(crate) rounds: u16,
+    /// On the SPU model trace one of so many blocks; they stand for all
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = value_parser!(u32).range(1..=1000))]
+    pub(crate) sample: u32,
+    /// SIMD level [default: the best, or the one that CGT_LEVEL names]
+    #[arg(long, value_name = "LEVEL")]
+    pub(crate) level: Option<String>,
+    /// Folder for a page that opens offline, ablation.html, with the same data in ablation.json and ablation.csv beside it
+    #[arg(long, value_name = "FOLDER", default_value = "cgt-ablation")]
+    pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) view: View,
 }
 
 #[derive(Args, Debug)]
@@ -276,7 +354,7 @@ pub(crate) enum Method {
     Paper,
 }
 
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug, Default)]
 pub(crate) struct View {
     /// Pixels, from 1x1 to 16384 on a side [default: the scene's own, else 1280x720]
     #[arg(long, value_name = "WxH", value_parser = size)]

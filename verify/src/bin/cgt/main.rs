@@ -21,10 +21,12 @@ fn main() -> ExitCode {
     let outcome = match cli.command {
         None => cmd::verify::verify(&cli.verify),
         Some(Command::Verify(args)) => cmd::verify::verify(&args),
+        Some(Command::Report(args)) => cmd::report::run(&args),
         Some(Command::Render(args)) => cmd::render::render(&args),
         Some(Command::Bench(args)) => cmd::bench::run(&args),
         Some(Command::Chart(args)) => cmd::chart::run(&args),
         Some(Command::Stability(args)) => cmd::stability::run(&args),
+        Some(Command::Ablate(args)) => cmd::ablate::run(&args),
         Some(Command::Spu(args)) => cmd::spu::run(&args),
         Some(Command::Prove(args)) => cmd::prove::run(&args),
         Some(Command::Replay(args)) => cmd::replay::run(&args),

@@ -24,9 +24,6 @@ use verify::subject::NamedPlan;
 use verify::verdict::Verdict;
 
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
-    let level = args.level.as_deref().map_or_else(Level::best, Level::named)?;
-    let plan = NamedPlan::ALL.into_iter().find(|plan| plan.name() == args.plan).unwrap_or(NamedPlan::Fast);
-    let threads = args.view.threads();
     // What is to be written and read is asked for before minutes are spent.
     if let Some(file) = &args.json {
         check_folder(file.parent().unwrap_or(Path::new(".")))?;
@@ -34,6 +31,25 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if let Some(folder) = &args.out {
         check_folder(folder)?;
     }
+    let report = measured(args)?;
+    files::write("bench", (args.json.as_deref(), args.out.as_deref()), &report, page)?;
+    say(&text(&report, std::io::stdout().is_terminal()))?;
+    if let Some(folder) = &args.out {
+        say(&format!("page: {}\n", folder.join("bench.html").display()))?;
+    }
+    Ok(match report.verdict() {
+        Verdict::Wrong => ExitCode::from(1),
+        Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
+        _ if report.baseline.is_some_and(|held| held.is_slower()) => ExitCode::from(4),
+        Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
+    })
+}
+
+/// Checks and times all that was asked for.
+pub(crate) fn measured(args: &Args) -> Result<Bench, Failure> {
+    let level = args.level.as_deref().map_or_else(Level::best, Level::named)?;
+    let plan = NamedPlan::ALL.into_iter().find(|plan| plan.name() == args.plan).unwrap_or(NamedPlan::Fast);
+    let threads = args.view.threads();
     let baseline = args.baseline.as_ref().map(|file| {
         let text = std::fs::read_to_string(file);
         text.map_err(|error| format!("the baseline `{}`: {error}", file.display()))
@@ -64,17 +80,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if let Some(text) = baseline {
         report.baseline = Some(Held { tolerance: args.tolerance / 100.0, steps: compare(&text, &report)? });
     }
-    files::write("bench", (args.json.as_deref(), args.out.as_deref()), &report, page)?;
-    say(&text(&report, std::io::stdout().is_terminal()))?;
-    if let Some(folder) = &args.out {
-        say(&format!("page: {}\n", folder.join("bench.html").display()))?;
-    }
-    Ok(match report.verdict() {
-        Verdict::Wrong => ExitCode::from(1),
-        Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
-        _ if report.baseline.is_some_and(|held| held.is_slower()) => ExitCode::from(4),
-        Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
-    })
+    Ok(report)
 }
 
 /// The outsiders that were asked for and are there, and those that are not.

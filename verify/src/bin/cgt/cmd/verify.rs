@@ -1,6 +1,6 @@
 //! `cgt verify`: scenes in, verdicts on the terminal and a report folder out.
 
-use crate::args::{EMBREE, Verify};
+use crate::args::{EMBREE, Verify, View};
 use crate::environment::{environment, quoted};
 use crate::{Failure, progress, say};
 use contract::Scene;
@@ -10,7 +10,9 @@ use std::process::ExitCode;
 use verify::claims::claims;
 use verify::judge::outside::Witness;
 use verify::picture::check_folder;
-use verify::report::{Absent, Report, SCHEMA_VERSION, overall, text, write};
+use verify::report::{
+    Absent, Report, SCHEMA_VERSION, ScenePictures, SceneReport, overall, text, write,
+};
 use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
 use verify::scenes::read::Loaded;
@@ -26,25 +28,12 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
     let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
     for word in &args.scenes {
-        let (loaded, scene) = load(word, args.view.frame)?;
-        warn(&loaded);
-        let (description, provenance) = about(word);
-        let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-        let frame = Frame {
-            name: word,
-            description: &description,
-            provenance: &provenance,
-            scene: &scene,
-            camera: &loaded.camera(&args.view.framing())?,
-            frame: [args.view.frame, loaded.animation.frames().len()],
-            warnings: &warnings,
-            replay: &format!("cgt verify {}{}", quoted(word), args.view.words()),
-        };
-        let (report, set) = run(&frame, &subjects, &witnesses, args.view.threads(), &|what, rows| {
-            progress::bar(word, what, rows)
-        })?;
-        scenes.push(report);
-        pictures.push(set);
+        for frame in args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1) {
+            let view = View { frame, ..args.view.clone() };
+            let (report, set) = judged(word, &view, &subjects, &witnesses)?;
+            scenes.push(report);
+            pictures.push(set);
+        }
     }
     let report = Report {
         schema_version: SCHEMA_VERSION,
@@ -55,7 +44,7 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
         claims: claims(),
         absent,
     };
-    let paths = write(&args.out, &report, &pictures)?;
+    let paths = write(&args.out, &report, &pictures, &[])?;
     let verdict = text(&report, std::io::stdout().is_terminal());
     say(&format!("{verdict}report: {}\n", paths.html.display()))?;
     Ok(match report.verdict {
@@ -63,6 +52,32 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
         Verdict::Wrong => ExitCode::from(1),
         Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
     })
+}
+
+/// Judges a frame of a scene.
+pub(crate) fn judged(
+    word: &str,
+    view: &View,
+    subjects: &[&dyn Subject],
+    witnesses: &[&dyn Witness],
+) -> Result<(SceneReport, ScenePictures), Failure> {
+    let (loaded, scene) = load(word, view.frame)?;
+    warn(&loaded);
+    let (description, provenance) = about(word);
+    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    let frame = Frame {
+        name: word,
+        description: &description,
+        provenance: &provenance,
+        scene: &scene,
+        camera: &loaded.camera(&view.framing())?,
+        frame: [view.frame, loaded.animation.frames().len()],
+        warnings: &warnings,
+        replay: &format!("cgt verify {}{}", quoted(word), view.words()),
+    };
+    let named = if view.frame == 0 { word.to_owned() } else { format!("{word}, frame {}", view.frame) };
+    let progress = |what: &str, rows| progress::bar(&named, what, rows);
+    Ok(run(&frame, subjects, witnesses, view.threads(), &progress)?)
 }
 
 /// The outside judges that were asked for and are there, and those that will not speak.

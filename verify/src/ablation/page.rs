@@ -1,0 +1,77 @@
+//! An ablation as a part of a page: for each base its variants, scene beside scene.
+
+use super::data::{Ablation, Row};
+use crate::report::words::{NONE, count, figure};
+use askama::Template;
+
+#[derive(Template)]
+#[template(path = "ablation-part.html")]
+struct Part {
+    scenes: Vec<String>,
+    chosen: Vec<String>,
+    bases: Vec<Base>,
+}
+
+/// A base over all scenes.
+struct Base {
+    name: String,
+    what: String,
+    plan: String,
+    own: Vec<Vec<String>>,
+    rows: Vec<(String, String, Vec<[String; 3]>)>,
+}
+
+#[derive(Template)]
+#[template(path = "ablation.html")]
+struct Page<'a> {
+    ablation: &'a Ablation,
+    part: String,
+}
+
+/// The part, as it stands in a page that has the style of charts.
+///
+/// # Errors
+/// If the template fails, which its types give no cause for.
+pub fn part(ablation: &Ablation) -> Result<String, askama::Error> {
+    let scenes = &ablation.scenes;
+    let number = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), figure);
+    let whole = |value: Option<u64>| value.map_or_else(|| NONE.to_owned(), count);
+    let bases = scenes.first().map_or(&[][..], |scene| &scene.bases).iter().enumerate().map(|(k, base)| {
+        let own = scenes.iter().map(|scene| {
+            let base = &scene.bases[k];
+            let cycles = base.cycles_per_ray.map(|[_, most]| most);
+            vec![number(base.ns_per_ray), number(cycles), whole(base.wrong)]
+        });
+        let rows = base.rows.iter().enumerate().map(|(j, row)| {
+            let cell = |row: &Row| [number(row.time), number(row.cycles), whole(row.wrong)];
+            let cells = scenes.iter().map(|scene| cell(&scene.bases[k].rows[j])).collect();
+            (row.concern.clone(), row.choice.clone(), cells)
+        });
+        Base {
+            name: base.name.clone(),
+            what: base.what.clone(),
+            plan: base.plan.clone(),
+            own: own.collect(),
+            rows: rows.collect(),
+        }
+    });
+    let chosen = scenes.iter().filter_map(|scene| {
+        let (ratio, best) = (scene.chosen_by_best?, scene.best_picked.as_ref()?);
+        Some(format!(
+            "{}: the plan chosen from the scene alone takes {} times as long as the best of those picked by hand ({best}). {}.",
+            scene.scene,
+            figure(ratio),
+            scene.reasons.join("; ")
+        ))
+    });
+    Part { scenes: scenes.iter().map(|scene| scene.scene.clone()).collect(), chosen: chosen.collect(), bases: bases.collect() }
+        .render()
+}
+
+/// A page of its own.
+///
+/// # Errors
+/// As [`part`].
+pub fn page(ablation: &Ablation) -> Result<String, askama::Error> {
+    Page { ablation, part: part(ablation)? }.render()
+}

@@ -1,0 +1,157 @@
+//! `cgt report`: everything the suite finds out, on one page that opens offline, with the data of each chapter beside it.
+
+use super::verify::{judged, load};
+use super::{ablate, bench, chart, stability};
+use crate::args;
+use crate::environment::environment;
+use crate::{Failure, progress, say};
+use contract::Size;
+use optimized::Level;
+use serde::Serialize;
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::process::ExitCode;
+use verify::claims::claims;
+use verify::picture::{check_folder, write_atomically};
+use verify::prove::run::{Proofs, run as prove};
+use verify::prove::solver::Solver;
+use verify::report::{Part, Report, SCHEMA_VERSION, overall, text, write};
+use verify::seed::seed;
+use verify::subject::{Grid, NAIVE, NamedPlan, Subject};
+use verify::verdict::Verdict;
+use verify::{ablation, advice, prove as proofs};
+
+/// Scenes where none is named.
+const SCENES: [&str; 3] = ["1hvr", "sphereflake:3", "uniform:2000:1"];
+/// Pixels where no size is asked for, and of a film.
+const SIZE: [u32; 2] = [640, 360];
+const FILM: [u32; 2] = [480, 270];
+/// Pixels of a chart, in which slow methods take part.
+const CHART: [u32; 2] = [320, 180];
+
+pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
+    check_folder(&args.out)?;
+    let names = if args.scenes.is_empty() { SCENES.map(str::to_owned).to_vec() } else { args.scenes.clone() };
+    let level = Level::best()?;
+    let size = match args.size {
+        Some(size) => size,
+        None => Size::new(SIZE[0], SIZE[1])?,
+    };
+    let view = args::View { size: Some(size), threads: args.threads, ..args::View::default() };
+    let threads = view.threads();
+    chapter("pictures");
+    let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
+    let subjects = subjects(level);
+    let subjects: Vec<&dyn Subject> = subjects.iter().map(AsRef::as_ref).collect();
+    for word in &names {
+        let (report, set) = judged(word, &view, &subjects, &[])?;
+        scenes.push(report);
+        pictures.push(set);
+    }
+    if args.film != "none" {
+        let frames = load(&args.film, 0)?.0.animation.frames().len();
+        let two = [Grid::new(NamedPlan::Fast, level, false, None), Grid::new(NamedPlan::Paper, level, false, None)];
+        let two: Vec<&dyn Subject> = two.iter().map(|subject| subject as &dyn Subject).collect();
+        for frame in 0..frames {
+            let view = args::View { size: Some(Size::new(FILM[0], FILM[1])?), frame, ..view.clone() };
+            let (report, set) = judged(&args.film, &view, &two, &[])?;
+            scenes.push(report);
+            pictures.push(set);
+        }
+    }
+    // The paper to the letter is here to be seen failing.
+    let papers = scenes.iter_mut().flat_map(|scene| &mut scene.subjects);
+    papers.filter(|subject| subject.name == NamedPlan::Paper.name()).for_each(|paper| paper.known_fault = true);
+    let parts = chapters(args, &names, &view)?;
+    let report = Report {
+        schema_version: SCHEMA_VERSION,
+        title: "Sphere tracers, judged".into(),
+        verdict: overall(&scenes, &[]),
+        environment: environment(threads, &[level]),
+        scenes,
+        claims: claims(),
+        absent: Vec::new(),
+    };
+    let paths = write(&args.out, &report, &pictures, &parts)?;
+    say(&format!("{}report: {}\n", text(&report, std::io::stdout().is_terminal()), paths.html.display()))?;
+    Ok(match report.verdict {
+        Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
+        Verdict::Wrong => ExitCode::from(1),
+        Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
+    })
+}
+
+/// The naive tracers and all plans.
+fn subjects(level: Level) -> Vec<Box<dyn Subject>> {
+    let naive = NAIVE.into_iter().map(|naive| Box::new(naive) as Box<dyn Subject>);
+    let plans = NamedPlan::ALL.into_iter().map(|plan| Box::new(Grid::new(plan, level, false, None)) as Box<dyn Subject>);
+    naive.chain(plans).collect()
+}
+
+/// What follows the pictures; the data of each chapter goes into the folder.
+fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<Vec<Part>, Failure> {
+    let folder = &args.out;
+    std::fs::create_dir_all(folder).map_err(|error| format!("the folder `{}`: {error}", folder.display()))?;
+    let mut parts = Vec::new();
+    let mut add = |anchor, title: &str, body| parts.push(Part { anchor, title: title.into(), body });
+    chapter("speed against accuracy");
+    let charted = chart::chart(&args::Chart {
+        scenes: names.to_vec(),
+        far: vec![1.0, 10.0, 100.0, 1000.0],
+        rounds: args.rounds,
+        sample: 8,
+        level: None,
+        out: folder.clone(),
+        view: args::View { size: Some(Size::new(CHART[0], CHART[1])?), ..view.clone() },
+    })?;
+    beside(folder, "chart", &charted, Some(charted.csv()?))?;
+    chapter("where methods break");
+    let broken = stability::found(&args::Stability {
+        scenes: names.to_vec(),
+        rays: args.rays,
+        level: None,
+        out: folder.clone(),
+    })?;
+    beside(folder, "stability", &broken, Some(broken.csv()?))?;
+    chapter("what each choice buys");
+    let ablated = ablate::found(&args::Ablate {
+        scenes: names.to_vec(),
+        rounds: args.rounds,
+        sample: 16,
+        level: None,
+        out: folder.clone(),
+        view: view.clone(),
+    })?;
+    beside(folder, "ablation", &ablated, Some(ablated.csv()?))?;
+    chapter("how fast");
+    let benched = bench::measured(&args::Bench { rounds: Some(args.rounds), ..args::Bench::of(names, view) })?;
+    beside(folder, "bench", &benched, None)?;
+    chapter("proofs");
+    let solvers = Solver::all();
+    let questions = Proofs::questions(false, |_| true);
+    let tick = progress::bar("prove", "lemmas and kernels", u32::try_from(questions).unwrap_or(u32::MAX));
+    let proved = prove(|_| true, false, &solvers, seed(), &*tick);
+    beside(folder, "prove", &proved, None)?;
+    add("advice", "Which method for which scene", advice::part(&advice::advice(&broken, &charted))?);
+    add("chart", "Speed against accuracy", verify::chart::page::part(&charted)?);
+    add("stability", "Where methods break", verify::stability::page::part(&broken)?);
+    add("ablation", "What each choice buys", ablation::page::part(&ablated)?);
+    add("bench", "How fast", verify::bench::page::part(&benched)?);
+    add("proofs", "Proved", proofs::page::part(&proved)?);
+    Ok(parts)
+}
+
+/// What is being done goes to standard error.
+fn chapter(name: &str) {
+    _ = writeln!(std::io::stderr(), "== {name}");
+}
+
+/// A chapter's data.
+fn beside(folder: &Path, name: &str, data: &impl Serialize, csv: Option<Vec<u8>>) -> Result<(), Failure> {
+    let json = serde_json::to_string_pretty(data)? + "\n";
+    write_atomically(&folder.join(format!("{name}.json")), json.as_bytes())?;
+    if let Some(csv) = csv {
+        write_atomically(&folder.join(format!("{name}.csv")), &csv)?;
+    }
+    Ok(())
+}
