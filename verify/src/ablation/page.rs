@@ -17,7 +17,8 @@ struct Base {
     name: String,
     what: String,
     plan: String,
-    own: Vec<Vec<String>>,
+    on_spu: bool,
+    own: Vec<[String; 3]>,
     rows: Vec<(String, String, Vec<[String; 3]>)>,
 }
 
@@ -40,7 +41,7 @@ pub fn part(ablation: &Ablation) -> Result<String, askama::Error> {
         let own = scenes.iter().map(|scene| {
             let base = &scene.bases[k];
             let cycles = base.cycles_per_ray.map(|[_, most]| most);
-            vec![number(base.ns_per_ray), number(cycles), whole(base.wrong)]
+            [number(base.ns_per_ray), number(cycles), whole(base.wrong)]
         });
         let rows = base.rows.iter().enumerate().map(|(j, row)| {
             let cell = |row: &Row| [number(row.time), number(row.cycles), whole(row.wrong)];
@@ -51,6 +52,7 @@ pub fn part(ablation: &Ablation) -> Result<String, askama::Error> {
             name: base.name.clone(),
             what: base.what.clone(),
             plan: base.plan.clone(),
+            on_spu: base.cycles_per_ray.is_some(),
             own: own.collect(),
             rows: rows.collect(),
         }

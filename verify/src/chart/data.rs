@@ -78,6 +78,23 @@ impl Point {
 }
 
 impl Chart {
+    /// Methods that decide exactly, and showed something else than the exact picture, or nothing: each with what it did, where.
+    #[must_use]
+    pub fn broken_promises(&self) -> Vec<String> {
+        let mut broken = Vec::new();
+        for view in &self.views {
+            for point in view.points.iter().filter(|point| point.family == Family::Exact) {
+                let what = match &point.comparison {
+                    Some(c) if c.wrong_ids + c.wrong_t + c.wrong_color == 0 => continue,
+                    Some(c) => format!("{} wrong ids, {} t, {} colours", c.wrong_ids, c.wrong_t, c.wrong_color),
+                    None => point.remark.clone().unwrap_or_else(|| "no picture".into()),
+                };
+                broken.push(format!("{}, {} radii away, {}: {what}", view.scene, view.radii, point.method));
+            }
+        }
+        broken
+    }
+
     /// One line for each method in each view, with a line of headings.
     ///
     /// # Errors

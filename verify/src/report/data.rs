@@ -246,12 +246,23 @@ pub fn overall(scenes: &[SceneReport], absent: &[Absent]) -> Verdict {
         return Verdict::NotJudged;
     }
     let verdicts = subjects.chain(witnesses).chain(missing);
-    let badness = |verdict: &Verdict| match verdict {
+    verdicts.max_by_key(|verdict| badness(*verdict)).unwrap_or(Verdict::NotJudged)
+}
+
+/// From good to bad, for the worst of many.
+pub(super) fn badness(verdict: Verdict) -> u8 {
+    match verdict {
         Verdict::Equal => 0,
         Verdict::WithinBound => 1,
         Verdict::Undecidable => 2,
         Verdict::NotJudged => 3,
         Verdict::Wrong => 4,
-    };
-    verdicts.max_by_key(badness).unwrap_or(Verdict::NotJudged)
+    }
+}
+
+impl SceneReport {
+    /// Whether another one is the next frame of the same film.
+    pub(super) fn is_followed_by(&self, next: &Self) -> bool {
+        self.name == next.name && self.frames > 1
+    }
 }

@@ -1,8 +1,10 @@
 //! Frames of one animation as one thing on the page: consecutive scenes of one name come in, a film with its frames, each with the truth and
 //! what differs from it, goes out. The page's own script turns it; without it the first frame is seen.
 
+use super::data::badness;
 use super::view::{Badge, SceneView};
 use super::words::{count, word};
+use crate::verdict::Verdict;
 
 /// An animation on the page.
 pub(super) struct Film<'a> {
@@ -19,6 +21,7 @@ pub(super) struct Frame<'a> {
     pub(super) told: String,
     /// Of each subject its verdict and its wrong pixels.
     pub(super) row: Vec<(Badge, String)>,
+    verdicts: Vec<Verdict>,
 }
 
 /// What stands on the page in a row.
@@ -29,11 +32,46 @@ pub(super) enum Item<'a> {
     Film(Film<'a>),
 }
 
+impl Item<'_> {
+    /// Its anchor.
+    pub(super) fn anchor(&self) -> &str {
+        match self {
+            Self::Scene(scene) => &scene.anchor,
+            Self::Film(film) => &film.anchor,
+        }
+    }
+
+    /// Its name, with the frames it is of.
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::Scene(scene) if scene.data.frames > 1 => {
+                format!("{}, frame {}", scene.data.name, scene.data.frame)
+            }
+            Self::Scene(scene) => scene.data.name.clone(),
+            Self::Film(film) => format!("{}, {} frames", film.first.data.name, film.frames.len()),
+        }
+    }
+
+    /// The verdict on a subject, of a film the worst, and where it is told.
+    pub(super) fn cell(&self, subject: &str) -> Option<(Badge, &str)> {
+        match self {
+            Self::Scene(scene) => {
+                let view = scene.subjects.iter().find(|view| view.data.name == subject)?;
+                Some((view.badge, &view.anchor))
+            }
+            Self::Film(film) => {
+                let k = film.columns.iter().position(|name| *name == subject)?;
+                let verdicts = film.frames.iter().filter_map(|frame| frame.verdicts.get(k));
+                Some((verdicts.copied().max_by_key(|verdict| badness(*verdict))?.into(), &film.anchor))
+            }
+        }
+    }
+}
+
 /// Scenes in their order; those that follow each other under one name are one film.
 pub(super) fn items<'a>(scenes: &'a [SceneView<'a>]) -> Vec<Item<'a>> {
-    let same = |a: &SceneView<'_>, b: &SceneView<'_>| a.data.name == b.data.name && a.data.frames > 1;
     scenes
-        .chunk_by(same)
+        .chunk_by(|one, next| one.data.is_followed_by(next.data))
         .map(|group| match group {
             [scene] => Item::Scene(scene),
             _ => Item::Film(film(group)),
@@ -52,6 +90,7 @@ fn film<'a>(scenes: &'a [SceneView<'a>]) -> Film<'a> {
 }
 
 fn frame<'a>(scene: &'a SceneView<'a>) -> Frame<'a> {
+    let verdicts = scene.subjects.iter().map(|subject| subject.data.verdict).collect();
     let mut panels = Vec::new();
     if let Some(truth) = &scene.truth {
         panels.push(("Truth".to_owned(), truth.as_str()));
@@ -73,5 +112,5 @@ fn frame<'a>(scene: &'a SceneView<'a>) -> Frame<'a> {
         let wrong = subject.data.comparison.as_ref().map_or_else(String::new, |c| count(c.wrong_ids));
         (subject.badge, wrong)
     };
-    Frame { number: scene.data.frame, panels, told: told.join("; "), row: scene.subjects.iter().map(cell).collect() }
+    Frame { number: scene.data.frame, panels, told: told.join("; "), row: scene.subjects.iter().map(cell).collect(), verdicts }
 }

@@ -1,6 +1,6 @@
 //! The report as one HTML page that needs nothing but itself: style inline, pictures as `data:` URIs, and one script that turns films.
 //! A [`Report`], the pictures of its scenes and what else belongs on the page come in, the page goes out. All text is escaped by the template
-//! `templates/report.html`; its content security policy forbids it to load anything, and any script but that one, which it knows by its hash.
+//! `templates/report.html`; its content security policy forbids it to load anything, and any script but that one, which it knows by its hash; a page without a film has none.
 
 use super::film::{Item, items};
 use super::outside;
@@ -35,6 +35,7 @@ struct Page<'a> {
     badge: Badge,
     sentence: &'static str,
     tally: Vec<(Badge, usize)>,
+    known_faults: Vec<&'a str>,
     headings: [&'static str; 12],
     outside_headings: Vec<String>,
     legend: Vec<(String, &'static str)>,
@@ -46,6 +47,7 @@ struct Page<'a> {
     scenes: &'a [SceneView<'a>],
     items: Vec<Item<'a>>,
     parts: &'a [Part],
+    turns: bool,
     script: &'static str,
     script_hash: String,
 }
@@ -60,11 +62,13 @@ pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Resu
     let scenes: Vec<SceneView<'_>> = scenes
         .map(|(k, scene)| SceneView::new(k + 1, scene, pictures.get(k).unwrap_or(&none)))
         .collect();
+    let items = items(&scenes);
     let page = Page {
         report,
         badge: report.verdict.into(),
         sentence: sentence(report.verdict),
         tally: tally(report),
+        known_faults: known_faults(report),
         headings: HEADINGS,
         outside_headings: outside::HEADINGS
             .map(str::to_owned)
@@ -82,7 +86,8 @@ pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Resu
         seed: report.environment.seed.map(|seed| seed.to_string()),
         evidence: Evidence::ALL.iter().map(|kind| (kind.word(), rests_on(report, *kind))).collect(),
         columns: columns(report),
-        items: items(&scenes),
+        turns: items.iter().any(|item| matches!(item, Item::Film(_))),
+        items,
         scenes: &scenes,
         parts,
         script: SCRIPT,
@@ -91,19 +96,22 @@ pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Resu
     page.render()
 }
 
-impl<'a> Page<'a> {
-    /// The view of a subject by name, for the table of scenes by subjects.
-    fn cell<'b>(&self, scene: &'b SceneView<'a>, subject: &str) -> Option<&'b super::view::SubjectView<'a>> {
-        scene.subjects.iter().find(|view| view.data.name == subject)
-    }
+/// How often each verdict was given, zeros included; known faults are not counted.
+fn tally(report: &Report) -> Vec<(Badge, usize)> {
+    let counted = || report.scenes.iter().flat_map(|scene| &scene.subjects).filter(|s| !s.known_fault);
+    let given = |verdict| counted().filter(|subject| subject.verdict == verdict).count();
+    VERDICTS.map(|verdict| (Badge::from(verdict), given(verdict))).to_vec()
 }
 
-/// How often each verdict was given, zeros included.
-fn tally(report: &Report) -> Vec<(Badge, usize)> {
-    let given = |verdict| {
-        report.scenes.iter().flat_map(|scene| &scene.subjects).filter(|s| s.verdict == verdict).count()
-    };
-    VERDICTS.map(|verdict| (Badge::from(verdict), given(verdict))).to_vec()
+/// Subjects that are shown as known faults, each once.
+fn known_faults(report: &Report) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for subject in report.scenes.iter().flat_map(|scene| &scene.subjects).filter(|subject| subject.known_fault) {
+        if !names.contains(&subject.name.as_str()) {
+            names.push(&subject.name);
+        }
+    }
+    names
 }
 
 fn rests_on(report: &Report, kind: Evidence) -> usize {

@@ -4,6 +4,7 @@
 
 use super::outside::sentences;
 use super::words::{NONE, count, mega_rays, sign, word};
+use super::data::badness;
 use super::{Report, SceneReport, SubjectReport};
 use crate::verdict::Verdict;
 use anstyle::{AnsiColor, Style};
@@ -30,8 +31,13 @@ const FIRST_NUMBER: usize = 3;
 /// The report as a short table. `color` adds ANSI escapes to the verdicts.
 #[must_use]
 pub fn text(report: &Report, color: bool) -> String {
-    let rows = report.scenes.iter().flat_map(|scene| scene.subjects.iter().map(move |s| (scene, s)));
-    let rows: Vec<_> = rows.map(|(scene, subject)| (subject.verdict, cells(scene, subject))).collect();
+    let mut rows = Vec::new();
+    for film in report.scenes.chunk_by(SceneReport::is_followed_by) {
+        match film {
+            [scene] => rows.extend(scene.subjects.iter().map(|s| (s.verdict, cells(scene, s)))),
+            _ => rows.extend(film[0].subjects.iter().map(|subject| summed(film, &subject.name))),
+        }
+    }
     let widths: [usize; 8] = std::array::from_fn(|k| {
         let (heading, limit) = COLUMNS[k];
         let widest = rows.iter().map(|(_, row)| display_width(&row[k])).max().unwrap_or(0);
@@ -53,6 +59,29 @@ fn cells(scene: &SceneReport, subject: &SubjectReport) -> [String; 8] {
     let room = COLUMNS[0].1 - frame.len().min(COLUMNS[0].1);
     let scene = clipped(&scene.name, room) + &frame;
     [scene, subject.name.clone(), verdict, ids, t, colors, ulp, mega_rays(subject.rays_per_second)]
+}
+
+/// A subject over all frames of a film: the worst verdict, sums, and the largest error.
+fn summed(film: &[SceneReport], name: &str) -> (Verdict, [String; 8]) {
+    let all: Vec<&SubjectReport> =
+        film.iter().flat_map(|scene| &scene.subjects).filter(|subject| subject.name == name).collect();
+    let verdict = all.iter().map(|subject| subject.verdict).max_by_key(|verdict| badness(*verdict));
+    let verdict = verdict.unwrap_or(Verdict::NotJudged);
+    let compared: Vec<_> = all.iter().filter_map(|subject| subject.comparison.as_ref()).collect();
+    let sum = |of: fn(&crate::verdict::Comparison) -> u64| brief(compared.iter().map(|c| of(c)).sum());
+    let most = brief(compared.iter().map(|c| c.t_ulp.max).max().unwrap_or(0));
+    let counts = if compared.is_empty() {
+        [NONE; 4].map(str::to_owned)
+    } else {
+        [sum(|c| c.wrong_ids), sum(|c| c.wrong_t), sum(|c| c.wrong_color), most]
+    };
+    let [ids, t, colors, ulp] = counts;
+    let frames = format!(" #{}-{}", film[0].frame, film[film.len() - 1].frame);
+    let scene = clipped(&film[0].name, COLUMNS[0].1 - frames.len().min(COLUMNS[0].1)) + &frames;
+    let seconds: Option<f64> = all.iter().map(|subject| subject.seconds).sum();
+    let pixels: u64 = compared.iter().map(|c| c.pixels).sum();
+    let speed = mega_rays(seconds.filter(|_| pixels > 0).map(|seconds| pixels as f64 / seconds));
+    (verdict, [scene, name.to_owned(), format!("{} {}", sign(verdict), word(verdict)), ids, t, colors, ulp, speed])
 }
 
 /// A count in at most seven columns.

@@ -119,6 +119,22 @@ impl Curve {
 }
 
 impl Stability {
+    /// Methods that decide exactly and were wrong, refused, or changed their mind: each with what it did, where.
+    #[must_use]
+    pub fn broken_promises(&self) -> Vec<String> {
+        let mut broken = Vec::new();
+        for curve in &self.curves {
+            for line in curve.lines.iter().filter(|line| line.family == Family::Exact) {
+                for (value, count) in curve.values.iter().zip(&line.counts) {
+                    if count.wrong > 0 || count.refused > 0 || (curve.by_truth && count.t_ulp_p99 > 0) {
+                        broken.push(format!("{} at {value}, {}: {count:?}", curve.name, line.method));
+                    }
+                }
+            }
+        }
+        broken
+    }
+
     /// A curve by its name.
     #[must_use]
     pub fn curve(&self, name: &str) -> Option<&Curve> {

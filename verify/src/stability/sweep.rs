@@ -123,13 +123,13 @@ pub const SWEEPS: [Sweep; 7] = [
         name: "angle",
         title: "Angle of the view to the axes",
         axis: "degrees from the nearest axis",
-        what: "One ball of a cloud from 1000 radii away, along an axis and away from it up to the diagonal.",
+        what: "One ball of a cloud from 100 radii away, along an axis and away from it up to the diagonal.",
         values: || (0..=11).map(|k| 5.0 * f64::from(k)).map(|x| if x > 54.0 { 54.7356 } else { x }).collect(),
         easy: 0.0,
         marks: &[(45.0, "the diagonal of a face")],
         shot: |degrees, rng| {
             let (balls, toward) = (cloud(rng), at_angle(degrees, rng));
-            aimed(&balls, 1000.0, toward, rng)
+            aimed(&balls, 100.0, toward, rng)
         },
         rays: PICTURE,
         cells: None,

@@ -74,6 +74,8 @@ pub(crate) enum Command {
 const SUBJECTS: [&str; 6] =
     ["naive-f64", "naive-f32-perpendicular", "naive-f32-textbook", "fast", "safe", "paper"];
 const PLANS: [&str; 3] = ["fast", "safe", "paper"];
+/// Of a report, beside its pictures: speed and breakdown with the advice from both, and so on.
+const CHAPTERS: [&str; 4] = ["methods", "ablation", "bench", "proofs"];
 const OUTSIDERS: [&str; 3] = ["embree", "bvh", "parry3d"];
 /// The outside judge.
 pub(crate) const EMBREE: &str = "embree";
@@ -117,6 +119,9 @@ pub(crate) struct Report {
     /// Animation of which every frame is judged; `none` for none
     #[arg(long, value_name = "SCENE", default_value = "2juy")]
     pub(crate) film: String,
+    /// Leave out a chapter
+    #[arg(long, value_name = "CHAPTER", value_delimiter = ',', value_parser = CHAPTERS)]
+    pub(crate) skip: Vec<String>,
     /// Rays at each value of the maps of where methods break
     #[arg(long, value_name = "N", default_value_t = 65_536, value_parser = value_parser!(u64).range(1..=1_000_000_000))]
     pub(crate) rays: u64,
@@ -126,7 +131,7 @@ pub(crate) struct Report {
     /// Pixels of pictures and of what is timed; of a film 480x270 [default: 640x360]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(crate) size: Option<Size>,
-    /// Threads, at most 1024; 0 is one a core
+    /// Threads that make pictures, at most 1024; 0 is one a core. What is timed has one
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u16).range(..=1024))]
     pub(crate) threads: u16,
     /// Folder of the report, with the data of each chapter beside it; files of the same names in it are replaced

@@ -7,8 +7,8 @@ use crate::environment::environment;
 use crate::{Failure, progress, say};
 use optimized::Level;
 use std::process::ExitCode;
-use verify::chart::{Asked, Chart, Distance, SCHEMA_VERSION, View, measure, page, text};
-use verify::methods::{Family, Method, charted};
+use verify::chart::{Asked, Chart, Distance, SCHEMA_VERSION, measure, page, text};
+use verify::methods::{Method, charted};
 use verify::picture::{check_folder, write_atomically};
 use verify::report::Absent;
 use verify::scenes::catalogue::Source;
@@ -27,15 +27,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     files::write("chart", (None, Some(&args.out)), &chart, page::page)?;
     say(&text::text(&chart))?;
     say(&format!("page: {}\n", args.out.join("chart.html").display()))?;
-    // What promises the truth and is not right is a mismatch, wherever it is met.
-    Ok(if chart.views.iter().all(exact_is_exact) { ExitCode::SUCCESS } else { ExitCode::from(1) })
-}
-
-/// Whether every method that promises the truth gave it.
-fn exact_is_exact(view: &View) -> bool {
-    view.points.iter().filter(|point| point.family == Family::Exact).all(|point| {
-        point.comparison.as_ref().is_some_and(|c| c.wrong_ids + c.wrong_t + c.wrong_color == 0)
-    })
+    Ok(super::kept(&chart.broken_promises()))
 }
 
 /// Measures all views of all scenes.

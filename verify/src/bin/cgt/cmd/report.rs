@@ -62,11 +62,15 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     // The paper to the letter is here to be seen failing.
     let papers = scenes.iter_mut().flat_map(|scene| &mut scene.subjects);
     papers.filter(|subject| subject.name == NamedPlan::Paper.name()).for_each(|paper| paper.known_fault = true);
-    let parts = chapters(args, &names, &view)?;
+    let (parts, broken) = chapters(args, &names, &view)?;
+    let mut verdict = overall(&scenes, &[]);
+    if super::kept(&broken) != ExitCode::SUCCESS {
+        verdict = Verdict::Wrong;
+    }
     let report = Report {
         schema_version: SCHEMA_VERSION,
         title: "Sphere tracers, judged".into(),
-        verdict: overall(&scenes, &[]),
+        verdict,
         environment: environment(threads, &[level]),
         scenes,
         claims: claims(),
@@ -88,57 +92,76 @@ fn subjects(level: Level) -> Vec<Box<dyn Subject>> {
     naive.chain(plans).collect()
 }
 
-/// What follows the pictures; the data of each chapter goes into the folder.
-fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<Vec<Part>, Failure> {
+/// What follows the pictures, and who broke a promise of the truth in it; the data of each chapter goes into the folder.
+fn chapters(
+    args: &args::Report,
+    names: &[String],
+    view: &args::View,
+) -> Result<(Vec<Part>, Vec<String>), Failure> {
     let folder = &args.out;
+    // Times are those of one thread, which others on the machine disturb least.
+    let view = &args::View { threads: 1, ..view.clone() };
     std::fs::create_dir_all(folder).map_err(|error| format!("the folder `{}`: {error}", folder.display()))?;
-    let mut parts = Vec::new();
-    let mut add = |anchor, title: &str, body| parts.push(Part { anchor, title: title.into(), body });
-    chapter("speed against accuracy");
-    let charted = chart::chart(&args::Chart {
-        scenes: names.to_vec(),
-        far: vec![1.0, 10.0, 100.0, 1000.0],
-        rounds: args.rounds,
-        sample: 8,
-        level: None,
-        out: folder.clone(),
-        view: args::View { size: Some(Size::new(CHART[0], CHART[1])?), ..view.clone() },
-    })?;
-    beside(folder, "chart", &charted, Some(charted.csv()?))?;
-    chapter("where methods break");
-    let broken = stability::found(&args::Stability {
-        scenes: names.to_vec(),
-        rays: args.rays,
-        level: None,
-        out: folder.clone(),
-    })?;
-    beside(folder, "stability", &broken, Some(broken.csv()?))?;
-    chapter("what each choice buys");
-    let ablated = ablate::found(&args::Ablate {
-        scenes: names.to_vec(),
-        rounds: args.rounds,
-        sample: 16,
-        level: None,
-        out: folder.clone(),
-        view: view.clone(),
-    })?;
-    beside(folder, "ablation", &ablated, Some(ablated.csv()?))?;
-    chapter("how fast");
-    let benched = bench::measured(&args::Bench { rounds: Some(args.rounds), ..args::Bench::of(names, view) })?;
-    beside(folder, "bench", &benched, None)?;
-    chapter("proofs");
-    let solvers = Solver::all();
-    let questions = Proofs::questions(false, |_| true);
-    let tick = progress::bar("prove", "lemmas and kernels", u32::try_from(questions).unwrap_or(u32::MAX));
-    let proved = prove(|_| true, false, &solvers, seed(), &*tick);
-    beside(folder, "prove", &proved, None)?;
-    add("advice", "Which method for which scene", advice::part(&advice::advice(&broken, &charted))?);
-    add("chart", "Speed against accuracy", verify::chart::page::part(&charted)?);
-    add("stability", "Where methods break", verify::stability::page::part(&broken)?);
-    add("ablation", "What each choice buys", ablation::page::part(&ablated)?);
-    add("bench", "How fast", verify::bench::page::part(&benched)?);
-    add("proofs", "Proved", proofs::page::part(&proved)?);
-    Ok(parts)
+    let (mut parts, mut broken) = (Vec::new(), Vec::new());
+    let wanted = |name: &str| !args.skip.iter().any(|skipped| skipped == name);
+    let part = |anchor, title: &str, body| Part { anchor, title: title.into(), body };
+    if wanted("methods") {
+        chapter("speed against accuracy");
+        let charted = chart::chart(&args::Chart {
+            scenes: names.to_vec(),
+            far: vec![1.0, 10.0, 100.0, 1000.0],
+            rounds: args.rounds,
+            sample: 8,
+            level: None,
+            out: folder.clone(),
+            view: args::View { size: Some(Size::new(CHART[0], CHART[1])?), ..view.clone() },
+        })?;
+        beside(folder, "chart", &charted, Some(charted.csv()?))?;
+        chapter("where methods break");
+        let broken_at = stability::found(&args::Stability {
+            scenes: names.to_vec(),
+            rays: args.rays,
+            level: None,
+            out: folder.clone(),
+        })?;
+        beside(folder, "stability", &broken_at, Some(broken_at.csv()?))?;
+        broken.extend(charted.broken_promises().into_iter().chain(broken_at.broken_promises()));
+        let advice = advice::part(&advice::advice(&broken_at, &charted))?;
+        parts.push(part("advice", "Which method for which scene", advice));
+        parts.push(part("chart", "Speed against accuracy", verify::chart::page::part(&charted)?));
+        parts.push(part("stability", "Where methods break", verify::stability::page::part(&broken_at)?));
+    }
+    if wanted("ablation") {
+        chapter("what each choice buys");
+        let ablated = ablate::found(&args::Ablate {
+            scenes: names.to_vec(),
+            rounds: args.rounds,
+            sample: 16,
+            level: None,
+            out: folder.clone(),
+            view: view.clone(),
+        })?;
+        beside(folder, "ablation", &ablated, Some(ablated.csv()?))?;
+        parts.push(part("ablation", "What each choice buys", ablation::page::part(&ablated)?));
+    }
+    if wanted("bench") {
+        chapter("how fast");
+        let benched =
+            bench::measured(&args::Bench { rounds: Some(args.rounds), ..args::Bench::of(names, view) })?;
+        beside(folder, "bench", &benched, None)?;
+        parts.push(part("bench", "How fast", verify::bench::page::part(&benched)?));
+    }
+    if wanted("proofs") {
+        chapter("proofs");
+        let solvers = Solver::all();
+        let questions = Proofs::questions(false, |_| true);
+        let tick = progress::bar("prove", "lemmas and kernels", u32::try_from(questions).unwrap_or(u32::MAX));
+        let proved = prove(|_| true, false, &solvers, seed(), &*tick);
+        beside(folder, "prove", &proved, None)?;
+        broken.extend(proved.wrong());
+        parts.push(part("proofs", "Proved", proofs::page::part(&proved)?));
+    }
+    Ok((parts, broken))
 }
 
 /// What is being done goes to standard error.

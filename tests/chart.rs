@@ -1,0 +1,135 @@
+//! Does the chart of speed against error show what the judge finds, of every method, from every distance? No time is asserted.
+
+use contract::Size;
+use optimized::plan::{Loop, Packet};
+use optimized::{Level, Plan};
+use reference::{Arithmetic, Tracer};
+use verify::ablation::ablate;
+use verify::chart::{Asked, Chart, Distance, SCHEMA_VERSION, View, measure};
+use verify::judge::compare::compare;
+use verify::methods::{Family, Method, charted};
+use verify::report::Environment;
+use verify::scenes::catalogue::Source;
+use verify::scenes::frame::Framing;
+use verify::scenes::read::Loaded;
+
+fn loaded() -> Loaded {
+    Source::parse("uniform:60:1").and_then(|source| source.load()).expect("generated")
+}
+
+fn at(loaded: &Loaded, times: f64) -> Distance {
+    let size = Size::new(50, 37).expect("a size");
+    Distance::new(&loaded.animation, &Framing { size: Some(size), ..Framing::default() }, times).expect("a camera")
+}
+
+fn silent(_: &str, _: u32) -> Box<dyn Fn() + Sync> {
+    Box::new(|| ())
+}
+
+fn view(methods: &[Method], times: f64) -> View {
+    let loaded = loaded();
+    let scene = &loaded.animation.frames()[0];
+    let asked = Asked { name: "sixty", frame: 0, scene, methods, rounds: 1, every: 3, seed: 1 };
+    measure(&asked, &at(&loaded, times), &silent).expect("small")
+}
+
+fn environment() -> Environment {
+    Environment {
+        program: "cgt".into(),
+        target: "any".into(),
+        cpu: None,
+        simd: "scalar".into(),
+        rustc: "rustc".into(),
+        threads: 1,
+        date: "2026-01-01".into(),
+        command_line: "cgt chart <here>".into(),
+        seed: Some(1),
+    }
+}
+
+fn chart(views: Vec<View>) -> Chart {
+    Chart { schema_version: SCHEMA_VERSION, kind: "chart", environment: environment(), absent: Vec::new(), views }
+}
+
+#[test]
+fn every_method_is_held_against_the_exact_picture() {
+    let mut absent = Vec::new();
+    let methods = charted(Level::best().expect("a level"), 1, &mut absent);
+    let near = view(&methods, 1.0);
+    assert_eq!(near.points.len(), methods.len());
+    for point in &near.points {
+        let comparison = point.comparison.as_ref().unwrap_or_else(|| panic!("{}: {:?}", point.method, point.remark));
+        assert_eq!((comparison.pixels, comparison.hits), (50 * 37, near.hits), "{}", point.method);
+        assert!(point.ns_per_ray.is_some_and(|ns| ns > 0.0), "{} was not timed", point.method);
+        assert_eq!(point.spu_cycles_per_ray.is_some(), ["safe", "safe-textbook", "paper"].contains(&point.method.as_str()));
+    }
+    // A method's counts are those of its own picture.
+    let loaded = loaded();
+    let (scene, camera) = (&loaded.animation.frames()[0], at(&loaded, 300.0).camera);
+    let render = |arithmetic| Tracer::new(arithmetic).render(scene, &camera).expect("small").image;
+    let expected = compare(&render(Arithmetic::Exact), &render(Arithmetic::F32Textbook)).expect("one size");
+    let far = view(&methods, 300.0);
+    let textbook = far.points.iter().find(|p| p.method == "naive-f32-textbook").expect("it takes part");
+    assert_eq!(textbook.comparison.as_ref(), Some(&expected));
+    assert!(expected.wrong_ids > 0, "nothing is wrong so far away: nothing was at stake");
+    // The same form by a grid gives the same picture.
+    let safe = far.points.iter().find(|p| p.method == "safe-textbook").expect("it takes part");
+    assert_eq!(safe.comparison, textbook.comparison);
+    let chart = chart(vec![near, far]);
+    assert_eq!(chart.broken_promises(), Vec::<String>::new());
+    eprintln!("judged {} methods at 2 distances, {} absent", methods.len(), absent.len());
+}
+
+#[test]
+fn who_promises_the_truth_and_is_wrong_is_named() {
+    let level = Level::best().expect("a level");
+    let printed = Plan { walk: Loop::Printed, packet: Packet::Block, ..Plan::fast() };
+    let liar = Method::grid("liar", Family::Exact, move |_| printed, level, 1);
+    let rounded = Method::grid("rounded", Family::Perpendicular, |_| Plan::safe(), level, 1);
+    let broken = chart(vec![view(&[liar, rounded], 1.0)]).broken_promises();
+    assert!(broken.len() == 1 && broken[0].contains("liar") && broken[0].contains("wrong ids"), "{broken:?}");
+}
+
+#[test]
+fn data_and_page_have_every_point() {
+    let level = Level::best().expect("a level");
+    let methods = [
+        Method::grid("exact & quick", Family::Exact, |_| Plan::fast(), level, 1),
+        Method::grid("rounded", Family::Perpendicular, |_| Plan::safe(), level, 1),
+    ];
+    let chart = chart(vec![view(&methods, 1.0), view(&methods, 10.0)]);
+    let csv = String::from_utf8(chart.csv().expect("in memory")).expect("text");
+    assert_eq!(csv.lines().count(), 1 + 2 * methods.len(), "{csv}");
+    let fields = csv.lines().map(|line| line.split(',').count()).collect::<Vec<_>>();
+    assert!(fields.iter().all(|count| *count == fields[0]), "{csv}");
+    let page = verify::chart::page::page(&chart).expect("filled in");
+    for word in ["exact &#38; quick", "rounded", "radii away", "<svg", "10⁰", "Every number"] {
+        assert!(page.contains(word) || word == "10⁰", "{word} is not on the page");
+    }
+    assert!(!page.contains("exact & quick"), "text stands on the page as HTML");
+    assert!(!page.contains("http") && !page.contains("<script"), "the page needs more than itself");
+}
+
+#[test]
+fn an_ablation_changes_one_thing_at_a_time() {
+    let loaded = loaded();
+    let level = Level::best().expect("a level");
+    let scene = &loaded.animation.frames()[0];
+    let found = ablate(("sixty", 0, scene), &at(&loaded, 1.0), (level, 1, 1, 4), 1, &silent).expect("small");
+    assert!(found.chosen_by_best.is_some_and(|ratio| ratio > 0.0) && found.best_picked.is_some());
+    for base in &found.bases {
+        assert!(base.ns_per_ray.is_some() && !base.rows.is_empty(), "{}", base.name);
+        assert_eq!(base.cycles_per_ray.is_some(), ["safe", "paper"].contains(&base.name.as_str()), "{}", base.name);
+        for row in &base.rows {
+            assert!(row.remark.is_none() && row.time.is_some(), "{}, {}: {:?}", base.name, row.choice, row.remark);
+        }
+        // What is exact stays so, whatever else is changed, but for its arithmetic.
+        if base.name.starts_with("fast") {
+            let exact = base.rows.iter().filter(|row| !["arithmetic", "margins"].contains(&row.concern.as_str()));
+            assert!(base.wrong == Some(0) && exact.clone().all(|row| row.wrong == Some(0)), "{base:?}");
+        }
+    }
+    let paper = found.bases.iter().find(|base| base.name == "paper").expect("it is a base");
+    let mended = |choice: &str| paper.rows.iter().find(|row| row.choice == choice).and_then(|row| row.wrong);
+    assert!(mended("lists") <= paper.wrong && mended("box range") <= paper.wrong, "{paper:?}");
+}
