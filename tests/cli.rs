@@ -134,6 +134,10 @@ const REFUSALS: &[Refusal] = &[
     (&["--subject", "nosuch"], &["nosuch", "naive-f64", "safe"]),
     (&["--frame", "99"], &["1hvr has frames 0 to 0, not 99"]),
     (&["2juy", "--frame", "24"], &["2juy has frames 0 to 23, not 24"]),
+    (&["verify", "2juy", "--frames", "22..26"], &["2juy has frames 0 to 23, not 25"]),
+    (&["chart", "1hvr", "--far", "0"], &["0.001 to 10000"]),
+    (&["stability", "--rays", "0"], &["--rays"]),
+    (&["report", "--skip", "nosuch"], &["nosuch", "ablation"]),
     (&["--frame", "99999999999999999999999"], &["--frame"]),
     (&["--threads", "1025"], &["--threads", "1024"]),
     // Pictures and cameras.
@@ -219,7 +223,7 @@ fn without_a_subcommand_it_verifies_the_bundled_molecule() {
     assert_eq!(said.code, 0, "{}{}", said.out, said.err);
     assert_eq!(said.err, "", "nothing to warn of, and no bar where there is no terminal");
     let report = report(&desk.path("report"));
-    assert_eq!(report["schema_version"], 2);
+    assert_eq!(report["schema_version"], 3);
     assert_eq!(report["verdict"], "WithinBound");
     assert_eq!(report["environment"]["command_line"], format!("cgt --size {SMALL} --out report"));
     assert_eq!([&report["scenes"][0]["width"], &report["scenes"][0]["height"]], [64, 36]);
@@ -363,6 +367,56 @@ fn pictures_can_be_decoded() {
     );
 }
 
+/// Each chapter by itself, and all on one page: files, exit codes, and what is on the terminal.
+#[test]
+fn charts_maps_and_the_report_are_made() {
+    let desk = Desk::new();
+    let tiny = ["--size", "48x27", "--rounds", "1", "--threads", "1"];
+    let made = |name: &str, words: &[&str], wants: &[&str]| {
+        let met = desk.run(&[words, &["--out", name][..]].concat());
+        assert_eq!((met.code, met.err.as_str()), (0, ""), "{name}: {}", met.out);
+        for want in wants {
+            assert!(met.out.contains(want), "{want} is not told: {}", met.out);
+        }
+        for kind in ["html", "json", "csv"] {
+            let file = desk.path(name).join(format!("{name}.{kind}"));
+            assert!(file.metadata().is_ok_and(|file| file.len() > 500), "{}", file.display());
+        }
+    };
+    let chart = ["chart", "uniform:50:1", "--far", "1,100"];
+    made("chart", &[&chart[..], &tiny[..]].concat(), &["naive-f32-textbook", "radii away", "page: "]);
+    made(
+        "stability",
+        &["stability", "uniform:50:1", "--rays", "64"],
+        &["Distance of the eye", "never", "page: "],
+    );
+    made(
+        "ablation",
+        &[&["ablate", "uniform:50:1"][..], &tiny[..]].concat(),
+        &["for", "culling", "times the time"],
+    );
+    let report =
+        ["report", "uniform:50:1", "--film", "none", "--rays", "64", "--rounds", "1", "--size", "48x27"];
+    let met = desk.run(&[&report[..], &["--skip", "proofs,bench", "--out", "all"][..]].concat());
+    assert_eq!(met.code, 0, "{}{}", met.out, met.err);
+    let page = std::fs::read_to_string(desk.path("all").join("report.html")).expect("there is a page");
+    for chapter in ["advice", "chart", "stability", "ablation"] {
+        assert!(page.contains(&format!("<section id=\"{chapter}\"")), "{chapter} is no chapter");
+    }
+    assert!(!page.contains("<section id=\"proofs\"") && page.contains("shown as a known fault"));
+    for name in ["chart.csv", "stability.json", "ablation.csv", "report.json"] {
+        assert!(desk.path("all").join(name).is_file(), "{name}");
+    }
+    // A film on one page.
+    let met =
+        desk.run(&["verify", "2juy", "--frames", "3..5", "--plan", "fast", "--size", SMALL, "--out", "film"]);
+    assert_eq!(met.code, 0, "{}{}", met.out, met.err);
+    let page = std::fs::read_to_string(desk.path("film").join("report.html")).expect("there is a page");
+    assert!(
+        page.contains("data-frame=\"3\"") && page.contains("data-frame=\"4\"") && met.out.contains("#3-4")
+    );
+}
+
 #[test]
 fn help_is_enough_for_a_stranger() {
     let desk = Desk::new();
@@ -387,7 +441,7 @@ fn help_is_enough_for_a_stranger() {
             "code {code} is not told"
         );
     }
-    for command in ["verify", "render", "scenes", "replay"] {
+    for command in ["verify", "render", "scenes", "replay", "chart", "stability", "ablate", "report"] {
         let help = desk.run(&[command, "--help"]);
         assert_eq!(help.code, 0, "{command}");
         assert!(help.out.contains("Usage: cgt"), "{command}");

@@ -1,12 +1,15 @@
 //! Does the report say everything it was told, in a page that needs nothing but itself?
 
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use contract::{Camera, Image, MISS, Size};
+use sha2::{Digest, Sha256};
 use std::collections::HashSet;
 use std::error::Error;
 use verify::judge::outside::{Adjudicated, Hearing};
 use verify::report::{
-    Absent, Claim, Counter, Environment, Evidence, Judge, Report, ReportError, SCHEMA_VERSION, ScenePictures,
-    SceneReport, SubjectReport, TEXT_WIDTH, html, json, overall, sanitized, text, word, write,
+    Absent, Claim, Counter, Environment, Evidence, Judge, Part, Report, ReportError, SCHEMA_VERSION,
+    ScenePictures, SceneReport, SubjectReport, TEXT_WIDTH, html, json, overall, sanitized, text, word, write,
 };
 use verify::verdict::{Comparison, UlpSummary, Verdict};
 
@@ -156,6 +159,72 @@ fn pictures(report: &Report) -> Result<Vec<ScenePictures>, Box<dyn Error>> {
     Ok(sets)
 }
 
+/// Three frames under one hostile name, each with a right subject and a wrong one that is shown as a known fault.
+fn film() -> Result<Report, Box<dyn Error>> {
+    let frame = |number: usize| -> Result<SceneReport, Box<dyn Error>> {
+        let fault = SubjectReport { known_fault: true, ..subject("a fault", Verdict::Wrong) };
+        let subjects = vec![subject("right", Verdict::Equal), fault];
+        Ok(SceneReport { frame: number, frames: 9, outside: Vec::new(), ..scene(HOSTILE, subjects)? })
+    };
+    let scenes = vec![frame(2)?, frame(3)?, frame(4)?];
+    Ok(Report { verdict: overall(&scenes, &[]), scenes, ..report()? })
+}
+
+/// The script turns the frames, the policy lets in that script alone, and without it the first frame is seen.
+#[test]
+fn frames_of_one_scene_are_a_film() -> Outcome {
+    let mut report = film()?;
+    report.scenes.push(scene("bar", vec![subject("right", Verdict::Equal)])?);
+    let page = html(&report, &pictures(&report)?, &[])?;
+    let script = page.split("<script>").nth(1).and_then(|rest| rest.split("</script>").next());
+    let script = script.ok_or("a film has a script")?;
+    assert_eq!(page.matches("<script").count(), 1);
+    let hash = BASE64_STANDARD.encode(Sha256::digest(script));
+    assert!(page.contains(&format!("script-src 'sha256-{hash}'\"")), "the policy does not know its script");
+    let hidden: Vec<bool> = page
+        .split("data-frame=\"")
+        .skip(1)
+        .map(|rest| rest.split('>').next().unwrap_or("").contains("hidden"))
+        .collect();
+    assert_eq!(hidden, [false, true, true]);
+    assert!(
+        page.contains("<a href=\"#scene-1\">") && !page.contains("href=\"#scene-2\""),
+        "one row for a film"
+    );
+    assert!(!page.contains("alert('x')"), "its name is text");
+    // A single frame is no film, and has no script.
+    let single = Report { scenes: report.scenes[..1].to_vec(), ..report.clone() };
+    let page = html(&single, &pictures(&single)?, &[])?;
+    assert!(!page.contains("script-src") && !page.contains("data-reel>"));
+    let told = text(&report, false);
+    assert_eq!(told.lines().filter(|line| line.contains("#2-4")).count(), 2, "{told}");
+    Ok(())
+}
+
+#[test]
+fn a_known_fault_is_shown_and_not_counted() -> Outcome {
+    let report = film()?;
+    assert_eq!(report.verdict, Verdict::Equal);
+    let page = html(&report, &pictures(&report)?, &[])?;
+    assert!(page.contains("<b>3</b> equal</li>") && page.contains("<b>0</b> wrong</li>"));
+    assert!(page.contains("<b>a fault</b> is shown as a known fault"));
+    let mut faults = report.scenes;
+    faults.iter_mut().for_each(|scene| drop(scene.subjects.remove(0)));
+    assert_eq!(overall(&faults, &[]), Verdict::NotJudged, "known faults alone are no run");
+    Ok(())
+}
+
+#[test]
+fn chapters_follow_the_scenes() -> Outcome {
+    let report = report()?;
+    let part = Part { anchor: "own", title: "A <chapter>".to_owned(), body: "<p>its body</p>".to_owned() };
+    let page = html(&report, &pictures(&report)?, &[part])?;
+    let at = |text: &str| page.find(text).ok_or_else(|| format!("{text} is not on the page"));
+    assert!(at("id=\"scene-2\"")? < at("<p>its body</p>")? && at("<p>its body</p>")? < at("id=\"claims\"")?);
+    assert!(page.contains("<a href=\"#own\">A &#60;chapter&#62;</a>"));
+    Ok(())
+}
+
 fn page() -> Result<String, Box<dyn Error>> {
     let report = report()?;
     Ok(html(&report, &pictures(&report)?, &[])?)
@@ -299,7 +368,7 @@ fn the_worst_verdict_is_the_verdict() -> Outcome {
 #[test]
 fn json_begins_with_its_schema_and_holds_the_data() -> Outcome {
     let text = json(&report()?)?;
-    assert!(text.starts_with("{\n  \"schema_version\": 2,"));
+    assert!(text.starts_with("{\n  \"schema_version\": 3,"));
     let data: serde_json::Value = serde_json::from_str(&text)?;
     assert_eq!(data["verdict"], "Wrong");
     assert_eq!(data["scenes"][1]["name"], HOSTILE);
@@ -443,7 +512,10 @@ fn a_failed_report_has_no_page() -> Outcome {
     assert!(matches!(failed, Err(ReportError::Write(_))));
     assert!(!folder.path().join("report.html").exists());
     let below_a_file = folder.path().join("bar-truth.png").join("deeper");
-    assert!(matches!(write(&below_a_file, &report, &pictures(&report)?, &[]), Err(ReportError::Folder { .. })));
+    assert!(matches!(
+        write(&below_a_file, &report, &pictures(&report)?, &[]),
+        Err(ReportError::Folder { .. })
+    ));
     Ok(())
 }
 

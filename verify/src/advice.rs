@@ -44,7 +44,8 @@ pub fn advice(stability: &Stability, chart: &Chart) -> Vec<Advice> {
         ASKED.map(|(a, b, c)| (a.to_owned(), b.to_owned(), c.to_owned())).into();
     if let Some(curve) = stability.curves.first() {
         let outsiders = curve.lines.iter().map(|line| &line.method);
-        let outsiders = outsiders.filter(|m| m.starts_with("embree-16") || ["bvh", "parry3d"].contains(&m.as_str()));
+        let outsiders =
+            outsiders.filter(|m| m.starts_with("embree-16") || ["bvh", "parry3d"].contains(&m.as_str()));
         asked.extend(outsiders.map(|name| (name.clone(), name.clone(), name.clone())));
     }
     let mut all: Vec<Advice> = asked
@@ -70,7 +71,9 @@ pub fn advice(stability: &Stability, chart: &Chart) -> Vec<Advice> {
 fn never_wrong(stability: &Stability, method: &str) -> bool {
     let mut curves = stability.curves.iter().filter(|curve| curve.by_truth);
     curves.all(|curve| {
-        curve.line(method).is_some_and(|line| line.counts.iter().all(|count| count.rays > 0 && count.wrong == 0))
+        curve
+            .line(method)
+            .is_some_and(|line| line.counts.iter().all(|count| count.rays > 0 && count.wrong == 0))
     })
 }
 
@@ -108,7 +111,8 @@ fn near(chart: &Chart, method: &str) -> Vec<(String, f64)> {
     let first = chart.views.iter().filter(|view| view.times_as_far.to_bits() == 1f64.to_bits());
     first
         .filter_map(|view| {
-            let own = |point: &&Point| point.method == method || point.method.starts_with(&format!("{method}@"));
+            let own =
+                |point: &&Point| point.method == method || point.method.starts_with(&format!("{method}@"));
             Some((view.scene.clone(), view.points.iter().find(own)?.ns_per_ray?))
         })
         .collect()
@@ -134,7 +138,9 @@ fn word(advice: &Advice, exact: &[(String, f64)], best: bool) -> String {
     let times = times(&advice.costs, exact);
     let right = advice.never_wrong;
     match times {
-        _ if right && best => "Take this: it was wrong nowhere, and nothing else that was right is faster.".into(),
+        _ if right && best => {
+            "Take this: it was wrong nowhere, and nothing else that was right is faster.".into()
+        }
         None => "Not timed here.".into(),
         Some(times) if right => {
             format!("Wrong nowhere, and it takes {} times as long as the exact one.", figure(times))

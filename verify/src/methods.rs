@@ -210,9 +210,11 @@ fn embree(every: bool, level: Level, threads: usize) -> Result<Vec<Method>, Stri
     let isas = Isa::available().into_iter().filter(|isa| every || own(isa));
     let mut methods = Vec::new();
     for isa in isas {
-        let device = Device::new(isa, threads)
-            .map_err(|error| format!("It is there and cannot be used: {error}."))?;
-        for width in Width::ALL.into_iter().filter(|width| every || [Width::One, Width::Sixteen].contains(width)) {
+        let device =
+            Device::new(isa, threads).map_err(|error| format!("It is there and cannot be used: {error}."))?;
+        for width in
+            Width::ALL.into_iter().filter(|width| every || [Width::One, Width::Sixteen].contains(width))
+        {
             let mode = Mode { build: Build::Plain, width, coherent: width != Width::One };
             let name = format!("embree-{width}@{isa}");
             let (device, own) = (device.clone(), name.clone());

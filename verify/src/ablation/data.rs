@@ -82,7 +82,15 @@ impl Ablation {
     /// None that a buffer in memory has.
     pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
-        table.write_record(["scene", "base", "concern", "choice", "times_the_time", "times_the_cycles", "wrong_ids"])?;
+        table.write_record([
+            "scene",
+            "base",
+            "concern",
+            "choice",
+            "times_the_time",
+            "times_the_cycles",
+            "wrong_ids",
+        ])?;
         let number = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
         let whole = |value: Option<u64>| value.map_or_else(String::new, |value| value.to_string());
         for scene in &self.scenes {

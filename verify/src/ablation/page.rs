@@ -66,8 +66,12 @@ pub fn part(ablation: &Ablation) -> Result<String, askama::Error> {
             scene.reasons.join("; ")
         ))
     });
-    Part { scenes: scenes.iter().map(|scene| scene.scene.clone()).collect(), chosen: chosen.collect(), bases: bases.collect() }
-        .render()
+    Part {
+        scenes: scenes.iter().map(|scene| scene.scene.clone()).collect(),
+        chosen: chosen.collect(),
+        bases: bases.collect(),
+    }
+    .render()
 }
 
 /// A page of its own.

@@ -11,9 +11,20 @@ pub fn text(ablation: &Ablation) -> String {
     let number = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), figure);
     let whole = |value: Option<u64>| value.map_or_else(|| NONE.to_owned(), count);
     for scene in &ablation.scenes {
-        _ = writeln!(text, "{}, {} spheres, {}x{}", scene.scene, count(scene.spheres as u64), scene.size[0], scene.size[1]);
+        _ = writeln!(
+            text,
+            "{}, {} spheres, {}x{}",
+            scene.scene,
+            count(scene.spheres as u64),
+            scene.size[0],
+            scene.size[1]
+        );
         if let (Some(ratio), Some(best)) = (scene.chosen_by_best, &scene.best_picked) {
-            _ = writeln!(text, "  the chosen plan takes {} times as long as the best picked by hand, {best}", figure(ratio));
+            _ = writeln!(
+                text,
+                "  the chosen plan takes {} times as long as the best picked by hand, {best}",
+                figure(ratio)
+            );
         }
         for base in &scene.bases {
             _ = writeln!(

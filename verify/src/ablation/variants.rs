@@ -37,7 +37,11 @@ pub fn bases() -> [Base; 4] {
             plan: Plan { packet: Packet::Block, ..Plan::fast() },
         },
         Base { name: "safe", what: "The paper with everything mended.", plan: Plan::safe() },
-        Base { name: "paper", what: "The paper to the letter, one thing mended at a time.", plan: Plan::paper() },
+        Base {
+            name: "paper",
+            what: "The paper to the letter, one thing mended at a time.",
+            plan: Plan::paper(),
+        },
     ]
 }
 
@@ -98,7 +102,9 @@ pub fn variants(base: Plan) -> Vec<Variant> {
 /// Whether the SPU model can run a plan: blocks, one of the two forms of f32.
 #[must_use]
 pub fn is_on_spu(plan: &Plan) -> bool {
-    plan.packet == Packet::Block && matches!(plan.arithmetic, Arithmetic::Rounded(_)) && plan.walk != Loop::Printed
+    plan.packet == Packet::Block
+        && matches!(plan.arithmetic, Arithmetic::Rounded(_))
+        && plan.walk != Loop::Printed
 }
 
 #[cfg(test)]

@@ -19,11 +19,7 @@ impl Naive {
     ///
     /// # Errors
     /// If there is no memory for a pixel.
-    pub(crate) fn new(
-        name: &str,
-        rounding: Option<Rounding>,
-        threads: usize,
-    ) -> Result<Self, SubjectError> {
+    pub(crate) fn new(name: &str, rounding: Option<Rounding>, threads: usize) -> Result<Self, SubjectError> {
         let arithmetic = rounding.map_or(Arithmetic::Exact, Rounding::naive);
         let image = Image::new(Size::new(1, 1)?, [0; 3])?;
         Ok(Self { name: name.into(), rounding, tracer: Tracer::new(arithmetic).threads(threads), image })

@@ -169,16 +169,15 @@ fn overview(scenes: &[SceneBench]) -> Option<String> {
     }));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "numbers of scenes")]
     let name = |x: f64| scenes.get(x as usize - 1).map_or_else(String::new, |scene| scene.name.clone());
-    let axes =
-        Axes {
-            x: "scenes",
-            y: "Mray/s",
-            x_word: &name,
-            y_word: figure,
-            x_scaling: Scaling::Linear,
-            y_scaling: Scaling::Logarithmic,
-            joined: false,
-        };
+    let axes = Axes {
+        x: "scenes",
+        y: "Mray/s",
+        x_word: &name,
+        y_word: figure,
+        x_scaling: Scaling::Linear,
+        y_scaling: Scaling::Logarithmic,
+        joined: false,
+    };
     plot("Millions of rays a second on each scene", axes, &series, &[])
 }
 

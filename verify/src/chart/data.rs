@@ -86,7 +86,9 @@ impl Chart {
             for point in view.points.iter().filter(|point| point.family == Family::Exact) {
                 let what = match &point.comparison {
                     Some(c) if c.wrong_ids + c.wrong_t + c.wrong_color == 0 => continue,
-                    Some(c) => format!("{} wrong ids, {} t, {} colours", c.wrong_ids, c.wrong_t, c.wrong_color),
+                    Some(c) => {
+                        format!("{} wrong ids, {} t, {} colours", c.wrong_ids, c.wrong_t, c.wrong_color)
+                    }
                     None => point.remark.clone().unwrap_or_else(|| "no picture".into()),
                 };
                 broken.push(format!("{}, {} radii away, {}: {what}", view.scene, view.radii, point.method));
@@ -102,9 +104,27 @@ impl Chart {
     pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
         table.write_record([
-            "scene", "frame", "spheres", "width", "height", "times_as_far", "radii", "method", "family", "ns_per_ray",
-            "spu_cycles_least", "spu_cycles_most", "pixels", "hits", "wrong_ids", "wrong_t", "t_ulp_median",
-            "t_ulp_p99", "t_ulp_max", "wrong_colours", "colour_max",
+            "scene",
+            "frame",
+            "spheres",
+            "width",
+            "height",
+            "times_as_far",
+            "radii",
+            "method",
+            "family",
+            "ns_per_ray",
+            "spu_cycles_least",
+            "spu_cycles_most",
+            "pixels",
+            "hits",
+            "wrong_ids",
+            "wrong_t",
+            "t_ulp_median",
+            "t_ulp_p99",
+            "t_ulp_max",
+            "wrong_colours",
+            "colour_max",
         ])?;
         for view in &self.views {
             for point in &view.points {

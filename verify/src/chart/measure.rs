@@ -73,11 +73,12 @@ pub fn measure(asked: &Asked<'_>, at: &Distance, progress: Progress<'_>) -> Resu
             }
         }
         if let Some(plan) = method.on_spu {
-            point.spu_cycles_per_ray = measure_nearest(plan, scene, camera, asked.every, &|| ()).ok().and_then(|m| {
-                let cost = frame_cost(&m, scene.spheres().len(), Policy::Hinted, Buffers::Single).ok()?;
-                let rays = camera.size().pixels() as f64;
-                Some(cost.cycles.map(|cycles| cycles * SPUS as f64 / rays))
-            });
+            point.spu_cycles_per_ray =
+                measure_nearest(plan, scene, camera, asked.every, &|| ()).ok().and_then(|m| {
+                    let cost = frame_cost(&m, scene.spheres().len(), Policy::Hinted, Buffers::Single).ok()?;
+                    let rays = camera.size().pixels() as f64;
+                    Some(cost.cycles.map(|cycles| cycles * SPUS as f64 / rays))
+                });
         }
         points.push(point);
         tick();

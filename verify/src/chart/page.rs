@@ -69,7 +69,10 @@ pub fn page(chart: &Chart) -> Result<String, askama::Error> {
 
 /// A family's mark, small.
 fn sample(family: Family) -> String {
-    let mut svg = format!("<svg width=\"16\" height=\"16\" aria-hidden=\"true\" class=\"plot-key\"><g class=\"dot {}\">", family.class());
+    let mut svg = format!(
+        "<svg width=\"16\" height=\"16\" aria-hidden=\"true\" class=\"plot-key\"><g class=\"dot {}\">",
+        family.class()
+    );
     shape(family).draw(&mut svg, [8.0, 8.0]);
     svg + "</g></svg>"
 }
@@ -127,7 +130,8 @@ fn scene(chart: &Chart, name: &str) -> Option<SceneCharts> {
 
 fn dot(point: &Point, error: f64, time: f64) -> Option<Dot> {
     // Of many that are alike one name is enough.
-    let named = !point.method.contains('@') || point.method.contains("-16@avx") || point.method.contains("-1@avx512");
+    let named =
+        !point.method.contains('@') || point.method.contains("-16@avx") || point.method.contains("-1@avx512");
     (time > 0.0).then(|| Dot {
         label: point.method.clone(),
         told: format!("{}: error {}, {}", point.method, figure(error), figure(time)),
@@ -142,8 +146,11 @@ fn dot(point: &Point, error: f64, time: f64) -> Option<Dot> {
 fn said(views: &[&View]) -> Vec<String> {
     let mut said = Vec::new();
     for view in views {
-        let mut right: Vec<&Point> =
-            view.points.iter().filter(|p| p.wrong_per_million() == Some(0.0) && p.ns_per_ray.is_some()).collect();
+        let mut right: Vec<&Point> = view
+            .points
+            .iter()
+            .filter(|p| p.wrong_per_million() == Some(0.0) && p.ns_per_ray.is_some())
+            .collect();
         right.sort_by(|a, b| a.ns_per_ray.unwrap_or_default().total_cmp(&b.ns_per_ray.unwrap_or_default()));
         let asked = view.points.iter().filter(|point| point.comparison.is_some()).count();
         let away = format!("{} radii away", short(view.radii.round()));
@@ -165,7 +172,19 @@ fn over(name: &str, views: &[&View]) -> Vec<(&'static str, String)> {
     if views.len() < 2 {
         return Vec::new();
     }
-    let drawn = ["fast", "naive-f64", "safe", "safe-textbook", "safe-spu-perpendicular", "safe-spu-textbook", "paper", "embree-16@avx512", "embree-16@avx2", "bvh", "parry3d"];
+    let drawn = [
+        "fast",
+        "naive-f64",
+        "safe",
+        "safe-textbook",
+        "safe-spu-perpendicular",
+        "safe-spu-textbook",
+        "paper",
+        "embree-16@avx512",
+        "embree-16@avx2",
+        "bvh",
+        "parry3d",
+    ];
     let series = |of: fn(&Point) -> Option<f64>| -> Vec<Series> {
         let line = |method: &&str| {
             let at = |view: &&View| {
@@ -194,7 +213,12 @@ fn over(name: &str, views: &[&View]) -> Vec<(&'static str, String)> {
     let charts = [
         (
             "Wrong pixels over distance",
-            plot(&format!("{name}: wrong pixels over distance"), axes("wrong in a million"), &series(Point::wrong_per_million), &[]),
+            plot(
+                &format!("{name}: wrong pixels over distance"),
+                axes("wrong in a million"),
+                &series(Point::wrong_per_million),
+                &[],
+            ),
         ),
         (
             "Error of t over distance",
@@ -211,8 +235,17 @@ fn over(name: &str, views: &[&View]) -> Vec<(&'static str, String)> {
 
 /// Headings of a table's cells.
 const HEADINGS: [&str; 11] = [
-    "ns a ray", "SPU cycles a ray", "wrong pixels", "in a million", "wrong t", "ulp of t, median", "99 %", "most",
-    "wrong colours", "by at most", "on the front",
+    "ns a ray",
+    "SPU cycles a ray",
+    "wrong pixels",
+    "in a million",
+    "wrong t",
+    "ulp of t, median",
+    "99 %",
+    "most",
+    "wrong colours",
+    "by at most",
+    "on the front",
 ];
 
 fn table(view: &View) -> Table {
@@ -229,7 +262,9 @@ fn table(view: &View) -> Table {
         let color = |get| if point.paints { of(get) } else { NONE.to_owned() };
         let cells = vec![
             point.ns_per_ray.map_or_else(|| NONE.to_owned(), figure),
-            point.spu_cycles_per_ray.map_or_else(|| NONE.to_owned(), |[a, b]| format!("{}–{}", figure(a), figure(b))),
+            point
+                .spu_cycles_per_ray
+                .map_or_else(|| NONE.to_owned(), |[a, b]| format!("{}–{}", figure(a), figure(b))),
             of(|c| c.wrong_ids),
             point.wrong_per_million().map_or_else(|| NONE.to_owned(), figure),
             of(|c| c.wrong_t),
@@ -245,7 +280,11 @@ fn table(view: &View) -> Table {
     Table {
         heading: format!("{}, {} radii away", view.scene, short(view.radii.round())),
         rows: view.points.iter().zip(front).map(row).collect(),
-        remarks: view.points.iter().filter_map(|p| Some(format!("{}: {}", p.method, p.remark.as_ref()?))).collect(),
+        remarks: view
+            .points
+            .iter()
+            .filter_map(|p| Some(format!("{}: {}", p.method, p.remark.as_ref()?)))
+            .collect(),
     }
 }
 

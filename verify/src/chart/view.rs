@@ -58,7 +58,11 @@ mod tests {
         let spheres = loaded.animation.frames()[0].spheres();
         for times in [1.0, 10.0, 1000.0] {
             let seen = spheres.iter().filter(|sphere| in_view(&at(times).camera, sphere)).count();
-            assert!(seen >= spheres.len() * 9 / 10, "{times} times as far {seen} of {} are in view", spheres.len());
+            assert!(
+                seen >= spheres.len() * 9 / 10,
+                "{times} times as far {seen} of {} are in view",
+                spheres.len()
+            );
         }
         let ratio = at(100.0).radii / at(1.0).radii;
         assert!((ratio - 100.0).abs() < 1e-3, "100 times as far is {ratio} times as many radii");

@@ -65,15 +65,29 @@ pub(crate) fn heat(map: &Heat<'_>) -> Option<String> {
         for (column, cell) in cells.iter().enumerate() {
             let x = LEFT + wide * column as f64;
             let told = |what: &str| escaped(&format!("{name}, {}: {what}", map.columns[column]));
-            let at = format!("x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\"", x + 0.5, y + 0.5, wide - 1.0, HIGH - 1.0);
+            let at = format!(
+                "x=\"{:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"{:.1}\"",
+                x + 0.5,
+                y + 0.5,
+                wide - 1.0,
+                HIGH - 1.0
+            );
             match cell {
                 Cell::Rate(rate) => {
                     let told = told(&format!("{} wrong", share(*rate)));
                     let class = if *rate > 0.0 { "cell" } else { "cell none" };
-                    _ = write!(svg, "<rect class=\"{class}\" {at} fill-opacity=\"{:.2}\"><title>{told}</title></rect>", strength(*rate));
+                    _ = write!(
+                        svg,
+                        "<rect class=\"{class}\" {at} fill-opacity=\"{:.2}\"><title>{told}</title></rect>",
+                        strength(*rate)
+                    );
                 }
                 Cell::None => {
-                    _ = write!(svg, "<rect class=\"cell none\" {at}><title>{}</title></rect>", told("not measured"));
+                    _ = write!(
+                        svg,
+                        "<rect class=\"cell none\" {at}><title>{}</title></rect>",
+                        told("not measured")
+                    );
                     line(&mut svg, "crossed", [x + 2.0, y + HIGH - 2.0], [x + wide - 2.0, y + 2.0]);
                 }
             }
@@ -107,7 +121,11 @@ fn scale(svg: &mut String, y: f64) {
     for (k, rate) in (0_u32..).zip(shown) {
         let x = LEFT + 62.0 * f64::from(k);
         let class = if rate > 0.0 { "cell" } else { "cell none" };
-        _ = write!(svg, "<rect class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\" width=\"60\" height=\"12\" fill-opacity=\"{:.2}\"/>", strength(rate));
+        _ = write!(
+            svg,
+            "<rect class=\"{class}\" x=\"{x:.1}\" y=\"{y:.1}\" width=\"60\" height=\"12\" fill-opacity=\"{:.2}\"/>",
+            strength(rate)
+        );
         words(svg, "middle", [x + 30.0, y + 28.0], &share(rate));
     }
     words(svg, "end", [LEFT - 8.0, y + 11.0], "wrong");

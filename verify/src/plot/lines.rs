@@ -123,7 +123,12 @@ pub(crate) fn plot(title: &str, axes: Axes<'_>, series: &[Series], marks: &[Mark
                 let ends = [format!("{:.1},{at:.1}", RIGHT + 10.0), format!("{:.1},{at:.1}", RIGHT + 34.0)];
                 _ = write!(svg, "<polyline class=\"{}\" points=\"{}\"/>", series.class, ends.join(" "));
             }
-            _ = write!(svg, "<circle class=\"{}\" cx=\"{:.1}\" cy=\"{at:.1}\" r=\"3.5\"/>", series.class, RIGHT + 22.0);
+            _ = write!(
+                svg,
+                "<circle class=\"{}\" cx=\"{:.1}\" cy=\"{at:.1}\" r=\"3.5\"/>",
+                series.class,
+                RIGHT + 22.0
+            );
             words(&mut svg, "start", [RIGHT + 40.0, at + 4.0], &series.label);
         }
     } else {

@@ -94,8 +94,8 @@ mod tests {
 
     #[test]
     fn zero_stands_apart_and_the_rest_by_its_logarithm() {
-        let scale =
-            Scale::over([0.0, 1.0, 100.0].into_iter(), [0.0, 100.0], true, Scaling::WithZero).expect("values");
+        let scale = Scale::over([0.0, 1.0, 100.0].into_iter(), [0.0, 100.0], true, Scaling::WithZero)
+            .expect("values");
         let at = [0.0, 1.0, 10.0, 100.0].map(|value| scale.at(value).round());
         assert_eq!(at, [0.0, 9.0, 55.0, 100.0]);
         assert_eq!(scale.ticks().first(), Some(&0.0));
@@ -107,7 +107,8 @@ mod tests {
 
     #[test]
     fn many_decades_have_few_ticks() {
-        let scale = Scale::over([1e-30, 1e30].into_iter(), [0.0, 1.0], true, Scaling::Logarithmic).expect("values");
+        let scale =
+            Scale::over([1e-30, 1e30].into_iter(), [0.0, 1.0], true, Scaling::Logarithmic).expect("values");
         assert!(scale.ticks().len() <= 12, "{:?}", scale.ticks());
     }
 }

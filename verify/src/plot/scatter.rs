@@ -45,7 +45,8 @@ pub(crate) fn scatter(title: &str, [x_title, y_title]: [&str; 2], dots: &[Dot]) 
         .iter()
         .filter(|dot| has_place(dot.at[0], Scaling::WithZero) && has_place(dot.at[1], Scaling::Logarithmic))
         .collect();
-    let x = Scale::over(dots.iter().map(|dot| dot.at[0]), [LEFT + 24.0, RIGHT - 12.0], true, Scaling::WithZero)?;
+    let x =
+        Scale::over(dots.iter().map(|dot| dot.at[0]), [LEFT + 24.0, RIGHT - 12.0], true, Scaling::WithZero)?;
     let y = Scale::over(dots.iter().map(|dot| dot.at[1]), [BOTTOM - 8.0, TOP], true, Scaling::Logarithmic)?;
     let mut svg = begin([WIDTH, HEIGHT], title);
     for value in y.ticks() {
@@ -104,7 +105,10 @@ fn room(label: &str, [x, y]: [f64; 2], taken: &[[f64; 4]]) -> Option<(&'static s
     let wide = label.chars().count() as f64 * LETTER;
     let rows = [0.0, -14.0, 14.0, -26.0, 26.0];
     let places = rows.into_iter().flat_map(|up| {
-        [("start", [x + 10.0, y + 4.0 + up], [x + 8.0, x + 10.0 + wide]), ("end", [x - 10.0, y + 4.0 + up], [x - 10.0 - wide, x - 8.0])]
+        [
+            ("start", [x + 10.0, y + 4.0 + up], [x + 8.0, x + 10.0 + wide]),
+            ("end", [x - 10.0, y + 4.0 + up], [x - 10.0 - wide, x - 8.0]),
+        ]
     });
     places.into_iter().find_map(|(anchor, place, [from, to])| {
         let own = [from, place[1] - HIGH + 3.0, to, place[1] + 3.0];

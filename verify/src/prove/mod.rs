@@ -8,8 +8,8 @@
 
 pub mod broken;
 pub mod claims;
-pub mod prover;
 pub mod page;
+pub mod prover;
 pub mod run;
 pub mod smt;
 pub mod solver;

@@ -112,5 +112,11 @@ fn frame<'a>(scene: &'a SceneView<'a>) -> Frame<'a> {
         let wrong = subject.data.comparison.as_ref().map_or_else(String::new, |c| count(c.wrong_ids));
         (subject.badge, wrong)
     };
-    Frame { number: scene.data.frame, panels, told: told.join("; "), row: scene.subjects.iter().map(cell).collect(), verdicts }
+    Frame {
+        number: scene.data.frame,
+        panels,
+        told: told.join("; "),
+        row: scene.subjects.iter().map(cell).collect(),
+        verdicts,
+    }
 }

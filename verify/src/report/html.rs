@@ -59,9 +59,8 @@ struct Page<'a> {
 pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Result<String, askama::Error> {
     let none = ScenePictures::default();
     let scenes = report.scenes.iter().enumerate();
-    let scenes: Vec<SceneView<'_>> = scenes
-        .map(|(k, scene)| SceneView::new(k + 1, scene, pictures.get(k).unwrap_or(&none)))
-        .collect();
+    let scenes: Vec<SceneView<'_>> =
+        scenes.map(|(k, scene)| SceneView::new(k + 1, scene, pictures.get(k).unwrap_or(&none))).collect();
     let items = items(&scenes);
     let page = Page {
         report,
@@ -106,7 +105,9 @@ fn tally(report: &Report) -> Vec<(Badge, usize)> {
 /// Subjects that are shown as known faults, each once.
 fn known_faults(report: &Report) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
-    for subject in report.scenes.iter().flat_map(|scene| &scene.subjects).filter(|subject| subject.known_fault) {
+    for subject in
+        report.scenes.iter().flat_map(|scene| &scene.subjects).filter(|subject| subject.known_fault)
+    {
         if !names.contains(&subject.name.as_str()) {
             names.push(&subject.name);
         }

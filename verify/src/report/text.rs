@@ -2,9 +2,9 @@
 //! [`TEXT_WIDTH`] columns wide, with or without colour. A [`Report`] comes in, text with a newline at its end goes
 //! out. Long names end in an ellipsis; control characters in them are replaced, so no name can steer a terminal.
 
+use super::data::badness;
 use super::outside::sentences;
 use super::words::{NONE, count, mega_rays, sign, word};
-use super::data::badness;
 use super::{Report, SceneReport, SubjectReport};
 use crate::verdict::Verdict;
 use anstyle::{AnsiColor, Style};
@@ -81,7 +81,10 @@ fn summed(film: &[SceneReport], name: &str) -> (Verdict, [String; 8]) {
     let seconds: Option<f64> = all.iter().map(|subject| subject.seconds).sum();
     let pixels: u64 = compared.iter().map(|c| c.pixels).sum();
     let speed = mega_rays(seconds.filter(|_| pixels > 0).map(|seconds| pixels as f64 / seconds));
-    (verdict, [scene, name.to_owned(), format!("{} {}", sign(verdict), word(verdict)), ids, t, colors, ulp, speed])
+    (
+        verdict,
+        [scene, name.to_owned(), format!("{} {}", sign(verdict), word(verdict)), ids, t, colors, ulp, speed],
+    )
 }
 
 /// A count in at most seven columns.

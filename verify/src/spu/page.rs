@@ -80,7 +80,8 @@ fn chart(curve: &Curve, title: &str, y: &'static str, lines: Vec<(String, Figure
         .collect();
     let x = if curve.over == "spheres" { "spheres" } else { "cells on an axis" };
     let scaling = Scaling::Logarithmic;
-    let axes = Axes { x, y, x_word: &short, y_word: figure, x_scaling: scaling, y_scaling: scaling, joined: true };
+    let axes =
+        Axes { x, y, x_word: &short, y_word: figure, x_scaling: scaling, y_scaling: scaling, joined: true };
     Some(Chart { title: title.into(), svg: plot(title, axes, &series, &[])? })
 }
 

@@ -153,7 +153,16 @@ impl Stability {
     /// None that a buffer in memory has.
     pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut table = csv::Writer::from_writer(Vec::new());
-        table.write_record(["what", "method_or_row", "value", "rays", "hits", "wrong", "t_ulp_p99", "refused"])?;
+        table.write_record([
+            "what",
+            "method_or_row",
+            "value",
+            "rays",
+            "hits",
+            "wrong",
+            "t_ulp_p99",
+            "refused",
+        ])?;
         let mut write = |what: &str, row: &str, value: String, count: &Count| {
             let Count { rays, hits, wrong, t_ulp_p99, refused } = *count;
             let numbers = [rays, hits, wrong, t_ulp_p99, refused].map(|n| n.to_string());

@@ -126,7 +126,9 @@ fn curve(asked: &Asked<'_>, sweep: &Sweep, number: u64, tick: &(dyn Fn() + Sync)
         .map(|(k, value)| {
             let mut tallies: Vec<Tally> = methods.iter().map(|_| Tally::default()).collect();
             for shot in 0..shots {
-                let Some(shot) = (sweep.shot)(*value, &mut drawn(asked, number, k as u64, shot)) else { continue };
+                let Some(shot) = (sweep.shot)(*value, &mut drawn(asked, number, k as u64, shot)) else {
+                    continue;
+                };
                 let Some(truth) = truth(&shot) else { continue };
                 // Of a single ray it is the sphere at stake alone that counts; of a picture all.
                 for (method, tally) in methods.iter().zip(&mut tallies) {

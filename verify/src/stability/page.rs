@@ -47,7 +47,8 @@ struct Page<'a> {
 /// # Errors
 /// If the template fails, which its types give no cause for.
 pub fn part(stability: &Stability) -> Result<String, askama::Error> {
-    let shown = |by_truth: bool| stability.curves.iter().filter(move |c| c.by_truth == by_truth).map(curve).collect();
+    let shown =
+        |by_truth: bool| stability.curves.iter().filter(move |c| c.by_truth == by_truth).map(curve).collect();
     let part = Part {
         stability,
         rays: count(stability.rays),
@@ -96,7 +97,8 @@ fn breakdowns(curve: &Curve) -> Breakdowns {
             .iter()
             .map(|line| {
                 let of = |up: bool| if up { line.breakdown.up } else { line.breakdown.down };
-                let cells = ways.iter().flat_map(|(up, _)| (0..4).map(|k| word(k, of(*up)[k])).collect::<Vec<_>>());
+                let cells =
+                    ways.iter().flat_map(|(up, _)| (0..4).map(|k| word(k, of(*up)[k])).collect::<Vec<_>>());
                 (line.method.clone(), cells.collect())
             })
             .collect(),

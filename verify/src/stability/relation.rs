@@ -91,7 +91,8 @@ fn changed(
     let (old, scene) = (&shot.camera, &shot.scene);
     let [corner, du, dv] = [old.corner(), old.du(), old.dv()].map(direction);
     Some(Shot {
-        scene: Scene::new(scene.spheres().iter().map(moved).collect(), scene.background(), scene.light()).ok()?,
+        scene: Scene::new(scene.spheres().iter().map(moved).collect(), scene.background(), scene.light())
+            .ok()?,
         camera: Camera::new(position(old.eye()), corner, du, dv, old.size()).ok()?,
     })
 }
@@ -109,8 +110,9 @@ mod tests {
             let mut held = 0;
             for (k, value) in (0..).zip(values()) {
                 let Some(two) = pair(value, &mut generator(7, k)) else { continue };
-                let [before, after] =
-                    two.map(|shot| Tracer::new(Arithmetic::Exact).render(&shot.scene, &shot.camera).expect("small").image);
+                let [before, after] = two.map(|shot| {
+                    Tracer::new(Arithmetic::Exact).render(&shot.scene, &shot.camera).expect("small").image
+                });
                 assert_eq!(before.ids, after.ids, "{name} at {value}");
                 held += 1;
             }

@@ -76,7 +76,12 @@ pub const SWEEPS: [Sweep; 7] = [
         title: "Size of spheres in cells",
         axis: "diameter by cell",
         what: "Balls of one size in a grid of 16 cells on an axis, about two in a cell, from 20 radii away.",
-        values: || vec![0.01, 0.03, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 1.0, 1.05, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5, 3.0, 4.0],
+        values: || {
+            vec![
+                0.01, 0.03, 0.1, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 1.0, 1.05, 1.1, 1.25, 1.5, 1.75, 2.0, 2.5,
+                3.0, 4.0,
+            ]
+        },
         easy: 0.1,
         marks: &[(1.0, "the paper: no larger than a cell")],
         shot: |ratio, rng| {
@@ -95,7 +100,11 @@ pub const SWEEPS: [Sweep; 7] = [
         easy: 1.0,
         marks: &[(16.0, "the paper: sixteen slots")],
         shot: |count, rng| {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a small whole number"
+            )]
             let count = count as usize;
             crowded(count, 0.5, rng)
         },

@@ -43,9 +43,15 @@ pub fn text(stability: &Stability) -> String {
     }
     for map in &stability.maps {
         _ = writeln!(text, "\n{} ({})", map.title, map.axis);
-        _ = writeln!(text, "  {:<32}{}", "", map.columns.iter().map(|c| format!("{c:>11}")).collect::<String>());
+        _ = writeln!(
+            text,
+            "  {:<32}{}",
+            "",
+            map.columns.iter().map(|c| format!("{c:>11}")).collect::<String>()
+        );
         for (row, counts) in map.rows.iter().zip(&map.counts) {
-            let cells = counts.iter().map(|c| format!("{:>11}", c.rate().map_or_else(|| "–".to_owned(), share)));
+            let cells =
+                counts.iter().map(|c| format!("{:>11}", c.rate().map_or_else(|| "–".to_owned(), share)));
             _ = writeln!(text, "  {row:<32}{}", cells.collect::<String>());
         }
     }

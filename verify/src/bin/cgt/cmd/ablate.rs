@@ -22,7 +22,8 @@ const SIZE: [u32; 2] = [640, 360];
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
     let found = found(args)?;
-    std::fs::create_dir_all(&args.out).map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
+    std::fs::create_dir_all(&args.out)
+        .map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
     write_atomically(&args.out.join("ablation.csv"), &found.csv()?)?;
     files::write("ablation", (None, Some(&args.out)), &found, page::page)?;
     say(&text::text(&found))?;
@@ -47,7 +48,9 @@ pub(crate) fn found(args: &Args) -> Result<Ablation, Failure> {
         }
         let at = Distance::new(&loaded.animation, &framing, 1.0)?;
         let how = (level, threads, args.rounds.into(), args.sample);
-        scenes.push(ablate((word, frame, scene), &at, how, seed, &|what, steps| progress::bar(word, what, steps))?);
+        scenes.push(ablate((word, frame, scene), &at, how, seed, &|what, steps| {
+            progress::bar(word, what, steps)
+        })?);
     }
     let mut environment = environment(threads, &[level]);
     environment.seed = Some(seed);

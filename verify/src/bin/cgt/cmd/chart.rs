@@ -22,7 +22,8 @@ const SIZE: [u32; 2] = [320, 180];
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
     let chart = chart(args)?;
-    std::fs::create_dir_all(&args.out).map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
+    std::fs::create_dir_all(&args.out)
+        .map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
     write_atomically(&args.out.join("chart.csv"), &chart.csv()?)?;
     files::write("chart", (None, Some(&args.out)), &chart, page::page)?;
     say(&text::text(&chart))?;
@@ -49,8 +50,15 @@ pub(crate) fn chart(args: &Args) -> Result<Chart, Failure> {
         }
         for times in &args.far {
             let at = Distance::new(&loaded.animation, &framing, *times)?;
-            let asked =
-                Asked { name: word, frame, scene, methods: &methods, rounds: args.rounds.into(), every: args.sample, seed };
+            let asked = Asked {
+                name: word,
+                frame,
+                scene,
+                methods: &methods,
+                rounds: args.rounds.into(),
+                every: args.sample,
+                seed,
+            };
             let named = format!("{word}, {times} times");
             views.push(measure(&asked, &at, &|what, steps| progress::bar(&named, what, steps))?);
         }

@@ -50,7 +50,8 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     }
     if args.film != "none" {
         let frames = load(&args.film, 0)?.0.animation.frames().len();
-        let two = [Grid::new(NamedPlan::Fast, level, false, None), Grid::new(NamedPlan::Paper, level, false, None)];
+        let two =
+            [Grid::new(NamedPlan::Fast, level, false, None), Grid::new(NamedPlan::Paper, level, false, None)];
         let two: Vec<&dyn Subject> = two.iter().map(|subject| subject as &dyn Subject).collect();
         for frame in 0..frames {
             let view = args::View { size: Some(Size::new(FILM[0], FILM[1])?), frame, ..view.clone() };
@@ -61,7 +62,9 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     }
     // The paper to the letter is here to be seen failing.
     let papers = scenes.iter_mut().flat_map(|scene| &mut scene.subjects);
-    papers.filter(|subject| subject.name == NamedPlan::Paper.name()).for_each(|paper| paper.known_fault = true);
+    papers
+        .filter(|subject| subject.name == NamedPlan::Paper.name())
+        .for_each(|paper| paper.known_fault = true);
     let (parts, broken) = chapters(args, &names, &view)?;
     let mut verdict = overall(&scenes, &[]);
     if super::kept(&broken) != ExitCode::SUCCESS {
@@ -88,7 +91,9 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
 /// The naive tracers and all plans.
 fn subjects(level: Level) -> Vec<Box<dyn Subject>> {
     let naive = NAIVE.into_iter().map(|naive| Box::new(naive) as Box<dyn Subject>);
-    let plans = NamedPlan::ALL.into_iter().map(|plan| Box::new(Grid::new(plan, level, false, None)) as Box<dyn Subject>);
+    let plans = NamedPlan::ALL
+        .into_iter()
+        .map(|plan| Box::new(Grid::new(plan, level, false, None)) as Box<dyn Subject>);
     naive.chain(plans).collect()
 }
 

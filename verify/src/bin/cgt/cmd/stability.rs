@@ -24,7 +24,8 @@ const SIZE: [u32; 2] = [320, 180];
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
     let found = found(args)?;
-    std::fs::create_dir_all(&args.out).map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
+    std::fs::create_dir_all(&args.out)
+        .map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
     write_atomically(&args.out.join("stability.csv"), &found.csv()?)?;
     files::write("stability", (None, Some(&args.out)), &found, page::page)?;
     say(&text::text(&found))?;
@@ -55,5 +56,13 @@ pub(crate) fn found(args: &Args) -> Result<Stability, Failure> {
     let (curves, maps) = stability(&asked, &*tick);
     let mut environment = environment(1, &[level]);
     environment.seed = Some(seed);
-    Ok(Stability { schema_version: SCHEMA_VERSION, kind: "stability", environment, absent, rays: args.rays, curves, maps })
+    Ok(Stability {
+        schema_version: SCHEMA_VERSION,
+        kind: "stability",
+        environment,
+        absent,
+        rays: args.rays,
+        curves,
+        maps,
+    })
 }

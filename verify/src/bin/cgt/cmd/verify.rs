@@ -10,9 +10,7 @@ use std::process::ExitCode;
 use verify::claims::claims;
 use verify::judge::outside::Witness;
 use verify::picture::check_folder;
-use verify::report::{
-    Absent, Report, SCHEMA_VERSION, ScenePictures, SceneReport, overall, text, write,
-};
+use verify::report::{Absent, Report, SCHEMA_VERSION, ScenePictures, SceneReport, overall, text, write};
 use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
 use verify::scenes::read::Loaded;
@@ -28,6 +26,10 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
     let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
     for word in &args.scenes {
+        // What is not there is told before anything is rendered.
+        if let Some(frames) = &args.frames {
+            load(word, frames.end - 1)?;
+        }
         for frame in args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1) {
             let view = View { frame, ..args.view.clone() };
             let (report, set) = judged(word, &view, &subjects, &witnesses)?;
