@@ -155,7 +155,8 @@ fn words(svg: &mut String, anchor: &str, [x, y]: [f64; 2], text: &str) {
     _ = write!(svg, "<text text-anchor=\"{anchor}\" x=\"{x:.1}\" y=\"{y:.1}\">{}</text>", escaped(text));
 }
 
-fn escaped(text: &str) -> String {
+/// Text as it may stand in an element or an attribute.
+pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

@@ -36,6 +36,7 @@ Examples:
   cgt render sphereflake:4 flake.png --size 800x600
   cgt bench 1hvr --peers embree --threads 1
   cgt spu 1hvr                          cycles on a PlayStation 3, stage by stage
+  cgt figures 1hvr                      the paper's four figures of a scene, as SVG and on a page
   cgt prove                             proofs of the kernels, by solvers
   cgt replay tests/cases/NAME.json      a case again, its pixel step by step
   cgt scenes                            what can be named";
@@ -51,6 +52,8 @@ pub(crate) enum Command {
     Render(Render),
     /// Count the cycles of the PlayStation 3's processor: by stage, with mispredicts, memory and what each trick saves
     Spu(Spu),
+    /// Draw the paper's four figures from a scene: blocks and what they cost, a frustum, the loops, the eight corners
+    Figures(Figures),
     /// Prove what the kernels do for all inputs, with the solvers that are there (z3, bitwuzla, cvc5)
     Prove(Prove),
     /// Judge a case again, and tell a pixel of it step by step
@@ -193,6 +196,28 @@ pub(crate) struct Spu {
     /// Walk so many times by that loop and print the cells: what --host counts
     #[arg(long, hide = true, value_name = "LOOP:LEVEL:WALKS")]
     pub(crate) walk: Option<String>,
+    #[command(flatten)]
+    pub(crate) view: View,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Figures {
+    /// Scene: a name or generator (see `cgt scenes`), or a file
+    #[arg(value_name = "SCENE", default_value = verify::scenes::catalogue::DEFAULT)]
+    pub(crate) scene: String,
+    /// Folder for screen.svg, frustum.svg, loops.svg, corners.svg and the page figures.html; files of the same names in it
+    /// are replaced
+    #[arg(long, value_name = "FOLDER", default_value = "cgt-figures")]
+    pub(crate) out: PathBuf,
+    /// Column and row of a pixel whose block is looked at [default: the block that visits most cells among those that hit]
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pub(crate) pixel: Option<[u32; 2]>,
+    /// Plan of the grid tracer
+    #[arg(long, value_name = "NAME", value_parser = ["paper", "safe"], default_value = "paper")]
+    pub(crate) plan: String,
+    /// Cells of the grid on each axis, 1 to 64 [default: the plan's: 16 for `paper`, chosen for the scene for `safe`]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(1..=64))]
+    pub(crate) grid: Option<u8>,
     #[command(flatten)]
     pub(crate) view: View,
 }
