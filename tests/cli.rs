@@ -137,6 +137,8 @@ const REFUSALS: &[Refusal] = &[
     (&["verify", "2juy", "--frames", "22..26"], &["2juy has frames 0 to 23, not 25"]),
     (&["chart", "1hvr", "--far", "0"], &["0.001 to 10000"]),
     (&["stability", "--rays", "0"], &["--rays"]),
+    (&["stability", "--only", "nosuch"], &["`nosuch` is no sweep", "distance"]),
+    (&["stability", "--methods", "nosuch"], &["`nosuch` is no method", "naive-f64"]),
     (&["report", "--skip", "nosuch"], &["nosuch", "ablation"]),
     (&["--frame", "99999999999999999999999"], &["--frame"]),
     (&["--threads", "1025"], &["--threads", "1024"]),
@@ -164,6 +166,13 @@ const REFUSALS: &[Refusal] = &[
     (&["render", "1hvr", "x.jpg"], &["`x.jpg`", ".png", ".exr"]),
     (&["render", "1hvr", "x"], &["`x`", ".png", ".exr"]),
     (&["render", "1hvr", ""], &["<FILE>"]),
+    // Figures.
+    (&["figures", "nosuch"], &["nosuch", "1hvr"]),
+    (&["figures", "--pixel", "400,0"], &["pixel (400, 0) lies beyond the picture of 320x180"]),
+    (&["figures", "--pixel", "0,0"], &["the block at (0, 0) comes to no cell"]),
+    (&["figures", "--pixel", "3"], &["expected X,Y"]),
+    (&["figures", "--plan", "fast"], &["fast", "paper", "safe"]),
+    (&["figures", "--out", "file"], &["`file`", "Not a directory"]),
     // Usage.
     (&["render"], &["<SCENE>", "<FILE>"]),
     (&["--nosuch"], &["--nosuch", "--help"]),
@@ -441,7 +450,9 @@ fn help_is_enough_for_a_stranger() {
             "code {code} is not told"
         );
     }
-    for command in ["verify", "render", "scenes", "replay", "chart", "stability", "ablate", "report"] {
+    for command in
+        ["verify", "render", "scenes", "replay", "chart", "stability", "ablate", "report", "figures"]
+    {
         let help = desk.run(&[command, "--help"]);
         assert_eq!(help.code, 0, "{command}");
         assert!(help.out.contains("Usage: cgt"), "{command}");
@@ -648,6 +659,34 @@ fn a_full_standard_output_is_an_error_and_a_closed_one_is_not() {
         let script = format!("{{ \"$0\" {words}; echo $? >code; }} | true; cat code");
         let said = desk.finish(desk.command("sh").args(["-c", &script, CGT]));
         assert_eq!((said.out.as_str(), said.err.as_str()), ("0\n", ""), "{words}: into a closed pipe");
+    }
+}
+
+// ---- figures ----
+
+/// Four files and a page, whole and each with the figure that the program's words tell of; written again they take the old ones' place.
+#[test]
+fn figures_are_files_and_a_page() {
+    let desk = Desk::new();
+    let words = ["figures", "uniform:300:1", "--size", "96x54", "--out", "drawn"];
+    for time in 0..2 {
+        let said = desk.run(&words);
+        assert_eq!((said.code, said.err.as_str()), (0, ""), "{}", said.out);
+        let mut names: Vec<String> = files(&desk.path("drawn")).iter().map(|path| name(path)).collect();
+        names.sort_unstable();
+        assert_eq!(
+            names,
+            ["corners.svg", "figures.html", "frustum.svg", "loops.svg", "screen.svg"],
+            "{time}"
+        );
+        let page = std::fs::read_to_string(desk.path("drawn/figures.html")).expect("a page");
+        assert_eq!((page.matches("<svg").count(), page.matches("</svg>").count()), (4, 4));
+        assert!(page.contains("--size 96x54"), "the page tells its command line");
+        for figure in ["screen", "frustum", "loops", "corners"] {
+            let svg = std::fs::read_to_string(desk.path(&format!("drawn/{figure}.svg"))).expect("a file");
+            assert!(svg.contains("prefers-color-scheme: dark") && svg.ends_with("</svg>\n"), "{figure}");
+            assert!(said.out.contains(&format!("{figure}.svg: ")), "{}", said.out);
+        }
     }
 }
 

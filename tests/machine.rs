@@ -513,7 +513,7 @@ impl Work for Notes {
         let mut times = 0;
         let four = m.within(|| {
             m.stage(Stage::Cull);
-            m.beside(Chore::Cell, || {
+            m.beside(Chore::Cell { slice: 0, j: 1, k: 2, live: true }, || {
                 times += 1;
                 m.to_array(m.lanes_of_four([1, 2, 0x7fc0_0005, 0x8000_0000].map(f32::from_bits)))
             })

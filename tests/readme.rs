@@ -92,7 +92,9 @@ fn run(line: &str) -> (TempDir, Output) {
     }
     let words =
         words(line).unwrap_or_else(|| panic!("README names a command this test does not know: {line}"));
-    let output = Command::new(env!("CARGO_BIN_EXE_cgt")).args(words).current_dir(desk.path()).output();
+    // The seed that README's drawings were made with.
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cgt"));
+    let output = command.args(words).current_dir(desk.path()).env("CGT_SEED", "1").output();
     (desk, output.expect("the program starts"))
 }
 
@@ -114,7 +116,7 @@ fn commands_work_and_pictures_come_out_again() {
         let script = line.split(' ').next().unwrap_or_default();
         assert!(executable(&root().join(script)), "{line} cannot be run");
     }
-    let mut pictures = pngs(&root().join("docs"));
+    let mut pictures = drawn(&root().join("docs"));
     assert!(!pictures.is_empty(), "README has pictures");
     for line in commands.iter().filter(|line| NOT_RUN.iter().all(|(exempt, _)| exempt != line)) {
         let own = (line != FIRST_COMMAND).then(|| run(line));
@@ -133,7 +135,7 @@ fn commands_work_and_pictures_come_out_again() {
             said(&output.stdout),
             said(&output.stderr)
         );
-        let made = [pngs(&desk.path().join("docs")), pngs(&desk.path().join("cgt-report"))].concat();
+        let made = [drawn(&desk.path().join("docs")), drawn(&desk.path().join("cgt-report"))].concat();
         pictures.retain(|picture| {
             !made.iter().any(|made| made.file_name() == picture.file_name() && same(made, picture))
         });
@@ -141,14 +143,20 @@ fn commands_work_and_pictures_come_out_again() {
     assert!(pictures.is_empty(), "no command of README makes these, as they are: {pictures:?}");
 }
 
-fn pngs(folder: &Path) -> Vec<PathBuf> {
+fn drawn(folder: &Path) -> Vec<PathBuf> {
     let entries =
         std::fs::read_dir(folder).into_iter().flatten().map(|entry| entry.expect("an entry").path());
-    entries.filter(|path| path.extension().is_some_and(|extension| extension == "png")).collect()
+    entries
+        .filter(|path| path.extension().is_some_and(|extension| extension == "png" || extension == "svg"))
+        .collect()
 }
 
-/// Whether two files hold the same pixels, however packed.
+/// Whether two files hold the same pixels, however packed, or the same drawing.
 fn same(one: &Path, other: &Path) -> bool {
+    if one.extension().is_some_and(|extension| extension == "svg") {
+        let text = |path: &Path| std::fs::read_to_string(path).expect("a drawing");
+        return text(one) == text(other);
+    }
     let pixels = |path: &Path| image::open(path).expect("a picture").to_rgba8();
     pixels(one) == pixels(other)
 }

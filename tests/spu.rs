@@ -345,7 +345,7 @@ fn every_operand_is_waited_for() {
 #[test]
 fn chores_by_hand() {
     for (chore, [even, odd], ready) in [
-        (Chore::Cell, [5, 2], 16),
+        (Chore::Cell { slice: 0, j: 0, k: 0, live: true }, [5, 2], 16),
         (Chore::Sphere(0), [2, 6], 23),
         (Chore::Invariants, [5, 0], 25),
         (Chore::Rectangle, [0, 4], 12),

@@ -28,9 +28,9 @@ fn run(
 ) -> Stability {
     let level = Level::best().expect("a level");
     let ticks = AtomicU32::new(0);
-    let asked = Asked { methods, level, rays, seed, scenes };
+    let asked = Asked { methods, level, rays, seed, scenes, only: &[] };
     let (curves, maps) = stability(&asked, &|| _ = ticks.fetch_add(1, Ordering::Relaxed));
-    assert_eq!(ticks.into_inner(), steps(scenes.len()), "the progress bar does not end where it should");
+    assert_eq!(ticks.into_inner(), steps(&asked), "the progress bar does not end where it should");
     let environment = Environment {
         program: "cgt".into(),
         target: "any".into(),

@@ -91,7 +91,16 @@ pub enum Chore {
     /// The rectangle of a slice is read.
     Rectangle,
     /// The place of a cell is found, and what it lists is read.
-    Cell,
+    Cell {
+        /// Number of its slice in the walk.
+        slice: usize,
+        /// Cell on the second axis.
+        j: i32,
+        /// Cell on the third axis.
+        k: i32,
+        /// Whether it is visited: see [`Visitor::visit`](crate::walk::Visitor::visit).
+        live: bool,
+    },
     /// An id is taken from what a cell lists, and its sphere read and spread over lanes.
     Sphere(u32),
     /// What a form needs of a sphere beside its centre is found.

@@ -482,7 +482,7 @@ impl<M: Machine, H: Hits<M>> Visitor<M> for Meeting<'_, M, H> {
         let i = self.heading.slice_index(self.slices.count, slice);
         let [x, y, z] = self.stride;
         let index = m.beside(
-            Chore::Cell,
+            Chore::Cell { slice, j, k, live },
             #[inline(always)]
             || i * x + j.unsigned_abs() as usize * y + k.unsigned_abs() as usize * z,
         );

@@ -337,27 +337,34 @@ pub fn listed(grid: &Grid, scene: &Scene) -> Listed {
         }
     }
     for (id, sphere) in (0..).zip(scene.spheres()) {
-        let range = |i: usize| {
-            let at = |x: f64| {
-                let inner = &grid.axes[i].planes[1..grid.axes[i].planes.len() - 1];
-                inner.iter().filter(|&&plane| f64::from(plane) <= x).count()
-            };
-            let (c, r) = (f64::from(sphere.center[i]), f64::from(sphere.radius));
-            // A cell more than f64 says on either side.
-            at(c - r).saturating_sub(1)..(at(c + r) + 2).min(grid.axes[i].planes.len() - 1)
-        };
-        for i in range(0) {
-            for j in range(1) {
-                for k in range(2) {
-                    let index: usize = (0..3).map(|axis| [i, j, k][axis] * strides[axis]).sum();
-                    let there = lists[index].binary_search(&id).is_ok();
-                    listed.missing +=
-                        u64::from(!there && meets(grid, [i, j, k], sphere.center, sphere.radius));
-                }
-            }
+        for cell in overlapped(grid, sphere.center, sphere.radius) {
+            let index: usize = (0..3).map(|axis| cell[axis] * strides[axis]).sum();
+            listed.missing += u64::from(lists[index].binary_search(&id).is_err());
         }
     }
     listed
+}
+
+/// The cells that hold a real point of a closed ball, in the order of their indices.
+#[must_use]
+pub fn overlapped(grid: &Grid, center: [f32; 3], radius: f32) -> Vec<[usize; 3]> {
+    let range = |i: usize| {
+        let at = |x: f64| {
+            let inner = &grid.axes[i].planes[1..grid.axes[i].planes.len() - 1];
+            inner.iter().filter(|&&plane| f64::from(plane) <= x).count()
+        };
+        let (c, r) = (f64::from(center[i]), f64::from(radius));
+        // A cell more than f64 says on either side.
+        at(c - r).saturating_sub(1)..(at(c + r) + 2).min(grid.axes[i].planes.len() - 1)
+    };
+    let [x, y, z] = [0, 1, 2].map(range);
+    let all = x.flat_map(|i| {
+        y.clone().flat_map({
+            let z = z.clone();
+            move |j| z.clone().map(move |k| [i, j, k])
+        })
+    });
+    all.filter(|cell| meets(grid, *cell, center, radius)).collect()
 }
 
 /// A point times 2²⁹⁸.
@@ -432,12 +439,14 @@ fn meets(grid: &Grid, cell: [usize; 3], center: [f32; 3], radius: f32) -> bool {
     if open { square < limit } else { square <= limit }
 }
 
-fn all_cells(grid: &Grid) -> impl Iterator<Item = [usize; 3]> + use<> {
+/// All cells of a grid, in the order of their indices.
+pub(crate) fn all_cells(grid: &Grid) -> impl Iterator<Item = [usize; 3]> + use<> {
     let n = [0, 1, 2].map(|i| grid.axes[i].planes.len() - 1);
     (0..n[0]).flat_map(move |i| (0..n[1]).flat_map(move |j| (0..n[2]).map(move |k| [i, j, k])))
 }
 
-fn times_listed(grid: &Grid, cell: [usize; 3], id: u32) -> usize {
+/// How often a cell lists a sphere.
+pub(crate) fn times_listed(grid: &Grid, cell: [usize; 3], id: u32) -> usize {
     let strides = grid.strides();
     let mut times = 0;
     let index = (0..3).map(|i| cell[i] * strides[i]).sum();

@@ -28,10 +28,26 @@ pub(crate) fn escaped(text: &str) -> String {
 /// The beginning of a chart of a size; `title` is what it is called by those who do not see it.
 pub(crate) fn begin([width, height]: [f64; 2], title: &str) -> String {
     format!(
-        "<svg class=\"plot\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-label=\"{}\">",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-label=\"{}\">",
         escaped(title)
     )
 }
+
+/// A drawing as a file of its own, in the colours of its reader's choice; `style` is that of what it draws.
+#[must_use]
+pub(crate) fn alone(svg: &str, style: &str) -> String {
+    const COLORS: &str = include_str!("../../templates/colors.css");
+    let fonts = ":root { --sans: system-ui, \"Segoe UI\", \"Helvetica Neue\", Arial, \"DejaVu Sans\", sans-serif; background: var(--paper); }";
+    let head = svg.find('>').map_or(0, |end| end + 1);
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}<style>\n{COLORS}{fonts}\n{style}</style>{}\n",
+        &svg[..head],
+        &svg[head..]
+    )
+}
+
+/// The style of charts.
+pub(crate) const STYLE: &str = include_str!("../../templates/plot.css");
 
 /// A large number in few digits: 100, 10 k, 3.69 M.
 #[must_use]

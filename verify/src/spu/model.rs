@@ -2,10 +2,11 @@
 //!
 //! In: a plan, a scene, a camera, and every how many blocks one is traced. Out: [`Measured`]. All is done by `optimized`'s own code;
 //! the picture is whole if every block is traced. Blocks that are passed over lie on a fixed lattice, and the rest stands for them.
+//! [`blocks`] measures each block by itself.
 
 use super::machine::Spu;
-use super::recorder::{Tally, record};
-use contract::{Camera, Image, Scene};
+use super::recorder::{Booked, Tally, record};
+use contract::{Camera, Image, MISS, Scene, Size};
 use optimized::camera::{BLOCK, CameraLanes};
 use optimized::crew::Crew;
 use optimized::frame;
@@ -16,6 +17,7 @@ use optimized::plan::Plan;
 use optimized::seen::{Counts, Seen, Worker};
 use optimized::stripe::{NO_COLUMN, Painter, Stripe};
 use optimized::{Events, RenderError};
+use rayon::prelude::*;
 
 /// From stripe to stripe the lattice moves by so many blocks.
 const SHIFT: u32 = 5;
@@ -123,4 +125,79 @@ pub fn measure<V: Machine + Send + Sync>(
         row_done();
     }
     Ok(Measured { seen, voxelize, stripes, trace, counts: worker.counts, events, image })
+}
+
+/// What one block came to.
+#[derive(Clone, Copy, Debug)]
+pub struct BlockTally {
+    /// Its first pixel.
+    pub at: [u32; 2],
+    /// What was booked for it: making, tracing and colouring its rays.
+    pub booked: Booked,
+    /// What its packets counted themselves.
+    pub counts: Counts,
+    /// Pixels of it that hit a sphere.
+    pub hits: u32,
+}
+
+/// A frame block by block.
+#[derive(Debug)]
+pub struct Blocks {
+    /// What the camera's rays read.
+    pub seen: Seen,
+    /// Row by row from the top, each from left to right.
+    pub blocks: Vec<BlockTally>,
+}
+
+/// Measures each block by itself, several rows of them side by side; `row_done` is called after each. A branch is hinted anew in each, so
+/// that the hints of all blocks together may be more than those of [`measure`]; all else is the same.
+///
+/// # Errors
+/// As [`measure`].
+pub fn blocks(
+    plan: Plan,
+    scene: &Scene,
+    camera: &Camera,
+    row_done: &(dyn Fn() + Sync),
+) -> Result<Blocks, RenderError> {
+    let (m, mut events) = (Spu(Scalar), Events::default());
+    let seen = Seen::new(m, plan, scene, camera, &mut Memory::default(), &mut events, &Crew::alone())?;
+    let rows: Vec<u32> = (0..camera.size().height()).step_by(BLOCK as usize).collect();
+    let row = |y: &u32| {
+        let row = row_of_blocks(m, &seen, scene, camera, *y);
+        row_done();
+        row
+    };
+    let blocks: Result<Vec<Vec<BlockTally>>, RenderError> = rows.par_iter().map(row).collect();
+    Ok(Blocks { blocks: blocks?.concat(), seen })
+}
+
+fn row_of_blocks<V: Machine>(
+    m: Spu<V>,
+    seen: &Seen,
+    scene: &Scene,
+    camera: &Camera,
+    y: u32,
+) -> Result<Vec<BlockTally>, RenderError> {
+    let size = camera.size();
+    let rows = BLOCK.min(size.height() - y);
+    let mut image = Image::new(Size::new(size.width(), rows)?, scene.background())?;
+    let mut tallies = Vec::new();
+    // What is made once can be used from the beginning of each block: by its own clock, and not by that of what came before.
+    let ((lanes, painter), _) = record(|| (CameraLanes::new(m, camera), Painter::new(m, scene, camera)));
+    for x in (0..size.width()).step_by(BLOCK as usize) {
+        let width = size.width() as usize;
+        let (ids, t, rgba) = (&mut image.ids, &mut image.t, &mut image.rgba);
+        let mut stripe = Stripe { y, width, ids, t, rgba, columns: &mut [NO_COLUMN] };
+        let mut worker = Worker::default();
+        let kit = (&lanes, &painter);
+        let ((), tally) =
+            record(|| frame::block(m, seen, scene, camera, kit, None, [x, y], &mut stripe, &mut worker));
+        let columns = x as usize..((x + BLOCK) as usize).min(width);
+        let hits =
+            image.ids.chunks(width).map(|row| row[columns.clone()].iter().filter(|id| **id != MISS).count());
+        let hits = u32::try_from(hits.sum::<usize>()).unwrap_or(u32::MAX);
+        tallies.push(BlockTally { at: [x, y], booked: tally.total(), counts: worker.counts, hits });
+    }
+    Ok(tallies)
 }

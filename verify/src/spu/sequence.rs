@@ -276,7 +276,7 @@ pub fn of_chore(chore: Chore) -> [(Sequence, usize); 4] {
         Chore::Packet => one(&[], 0),
         Chore::Distances(slices) => one(DISTANCES, slices.div_ceil(4)),
         Chore::Rectangle => one(RECTANGLE, 1),
-        Chore::Cell => one(CELL, 1),
+        Chore::Cell { .. } => one(CELL, 1),
         Chore::Sphere(_) => one(SPHERE, 1),
         Chore::Invariants => one(INVARIANTS, 1),
         Chore::Owner => one(OWNER, 1),

@@ -43,6 +43,24 @@ pub struct Asked<'a> {
     pub seed: u64,
     /// Scenes on which grid and packet are turned up.
     pub scenes: &'a [Named],
+    /// Curves and maps by their names; all if none is named.
+    pub only: &'a [String],
+}
+
+impl Asked<'_> {
+    fn wants(&self, name: &str) -> bool {
+        self.only.is_empty() || self.only.iter().any(|only| only == name)
+    }
+}
+
+/// Maps by their names.
+const MAPS: [&str; 3] = ["assumptions", "grids", "packets"];
+
+/// Names of all curves and maps.
+#[must_use]
+pub fn names() -> Vec<String> {
+    let curves = SWEEPS.iter().map(|sweep| sweep.name).chain(RELATIONS.iter().map(|relation| relation.name));
+    curves.chain(MAPS).map(str::to_owned).collect()
 }
 
 /// Cells on each axis of the plans in the map over grids.
@@ -50,23 +68,28 @@ pub const GRIDS: [u8; 12] = [2, 4, 6, 8, 10, 12, 16, 20, 24, 32, 48, 64];
 /// Blocks on a side of a tile in the map over packets.
 const SIDES: [u8; 7] = [1, 2, 4, 8, 16, 32, MAX_SIDE];
 
-/// Steps that [`stability`] ticks, for so many scenes.
+/// Steps that [`stability`] ticks.
 #[must_use]
-pub fn steps(scenes: usize) -> u32 {
-    let values = SWEEPS.iter().map(|sweep| (sweep.values)().len()).sum::<usize>()
-        + RELATIONS.iter().map(|relation| (relation.values)().len()).sum::<usize>();
-    let cells = RATIOS.len() + 2 * scenes;
-    u32::try_from(values + cells).unwrap_or(u32::MAX)
+pub fn steps(asked: &Asked<'_>) -> u32 {
+    let sweeps = SWEEPS.iter().map(|sweep| (sweep.name, (sweep.values)().len()));
+    let relations = RELATIONS.iter().map(|relation| (relation.name, (relation.values)().len()));
+    let maps = MAPS.into_iter().zip([RATIOS.len(), asked.scenes.len(), asked.scenes.len()]);
+    let all = sweeps.chain(relations).chain(maps).filter(|(name, _)| asked.wants(name));
+    u32::try_from(all.map(|(_, steps)| steps).sum::<usize>()).unwrap_or(u32::MAX)
 }
 
 /// All curves and maps; `tick` is called [`steps`] times.
 #[must_use]
 pub fn stability(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> (Vec<Curve>, Vec<Map>) {
-    let sweeps = SWEEPS.iter().zip(0..).map(|(sweep, k)| curve(asked, sweep, k, tick));
-    let relations = RELATIONS.iter().zip(100..).map(|(relation, k)| related(asked, relation, k, tick));
-    let curves = sweeps.chain(relations).collect();
-    let maps = vec![assumptions(asked, tick), grids(asked, tick), packets(asked, tick)];
-    (curves, maps)
+    let sweeps = SWEEPS.iter().zip(0..).filter(|(sweep, _)| asked.wants(sweep.name));
+    let relations = RELATIONS.iter().zip(100..).filter(|(relation, _)| asked.wants(relation.name));
+    let curves = sweeps
+        .map(|(sweep, k)| curve(asked, sweep, k, tick))
+        .chain(relations.map(|(relation, k)| related(asked, relation, k, tick)))
+        .collect();
+    let map: [fn(&Asked<'_>, &(dyn Fn() + Sync)) -> Map; 3] = [assumptions, grids, packets];
+    let maps = MAPS.into_iter().zip(map).filter(|(name, _)| asked.wants(name));
+    (curves, maps.map(|(_, map)| map(asked, tick)).collect())
 }
 
 /// The generator of a shot.

@@ -4,7 +4,7 @@ use super::breakdown::WORDS;
 use super::data::{Count, Curve, Map, Stability};
 use crate::methods::Family;
 use crate::plot::heat::{Cell, Heat, heat, share};
-use crate::plot::{Axes, Mark, Scaling, Series, plot, power};
+use crate::plot::{Axes, Mark, STYLE, Scaling, Series, alone, plot, power};
 use crate::report::words::{NONE, count};
 use askama::Template;
 
@@ -66,6 +66,15 @@ pub fn part(stability: &Stability) -> Result<String, askama::Error> {
 /// As [`part`].
 pub fn page(stability: &Stability) -> Result<String, askama::Error> {
     Page { stability, part: part(stability)? }.render()
+}
+
+/// Each curve and map as a file of its own: its name, and an SVG document.
+#[must_use]
+pub fn files(stability: &Stability) -> Vec<(String, String)> {
+    let curves = stability.curves.iter().map(|c| (&c.name, curve(c).heat));
+    let maps = stability.maps.iter().map(|m| (&m.name, map(m).heat));
+    let drawn = curves.chain(maps).filter_map(|(name, svg)| Some((name, svg?)));
+    drawn.map(|(name, svg)| (format!("{name}.svg"), alone(&svg, STYLE))).collect()
 }
 
 fn cell(count: &Count) -> Cell {

@@ -40,6 +40,7 @@ Examples:
   cgt stability                         where each method breaks
   cgt ablate 1hvr                       what each choice of a plan buys
   cgt spu 1hvr                          cycles on a PlayStation 3, stage by stage
+  cgt figures 1hvr                      the paper's four figures of a scene, as SVG and on a page
   cgt prove                             proofs of the kernels, by solvers
   cgt replay tests/cases/NAME.json      a case again, its pixel step by step
   cgt scenes                            what can be named";
@@ -63,6 +64,8 @@ pub(crate) enum Command {
     Render(Render),
     /// Count the cycles of the PlayStation 3's processor: by stage, with mispredicts, memory and what each trick saves
     Spu(Spu),
+    /// Draw the paper's four figures from a scene: blocks and what they cost, a frustum, the loops, the eight corners
+    Figures(Figures),
     /// Prove what the kernels do for all inputs, with the solvers that are there (z3, bitwuzla, cvc5)
     Prove(Prove),
     /// Judge a case again, and tell a pixel of it step by step
@@ -75,7 +78,7 @@ const SUBJECTS: [&str; 6] =
     ["naive-f64", "naive-f32-perpendicular", "naive-f32-textbook", "fast", "safe", "paper"];
 const PLANS: [&str; 3] = ["fast", "safe", "paper"];
 /// Of a report, beside its pictures: speed and breakdown with the advice from both, and so on.
-const CHAPTERS: [&str; 4] = ["methods", "ablation", "bench", "proofs"];
+const CHAPTERS: [&str; 5] = ["methods", "ablation", "figures", "bench", "proofs"];
 const OUTSIDERS: [&str; 3] = ["embree", "bvh", "parry3d"];
 /// The outside judge.
 pub(crate) const EMBREE: &str = "embree";
@@ -221,6 +224,20 @@ pub(crate) struct Chart {
     pub(crate) view: View,
 }
 
+impl Figures {
+    /// A scene as it is seen by default, and the paper's plan.
+    pub(crate) fn of(scene: &str, out: &std::path::Path) -> Self {
+        Self {
+            scene: scene.into(),
+            out: out.to_path_buf(),
+            pixel: None,
+            plan: "paper".into(),
+            grid: None,
+            view: View::default(),
+        }
+    }
+}
+
 impl Bench {
     /// Some scenes in a view, and what else is asked for by default.
     pub(crate) fn of(scenes: &[String], view: &View) -> Self {
@@ -249,13 +266,19 @@ pub(crate) struct Stability {
     /// Scenes on which grid and packet are turned up [default: 1hvr, 2juy, sphereflake:3 and 2000 random spheres]
     #[arg(value_name = "SCENE")]
     pub(crate) scenes: Vec<String>,
+    /// Only these sweeps: distance, scale, size, crowd, tangency, angle, offset, turned, moved, scaled, assumptions, grids, packets
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub(crate) only: Vec<String>,
+    /// Only these methods, as they are called in the table
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub(crate) methods: Vec<String>,
     /// Rays at each value; what happens once in a million is seen with a million alone
     #[arg(long, value_name = "N", default_value_t = 262_144, value_parser = value_parser!(u64).range(1..=1_000_000_000))]
     pub(crate) rays: u64,
     /// SIMD level of the grid tracer, and of Embree [default: the best, or the one that CGT_LEVEL names]
     #[arg(long, value_name = "LEVEL")]
     pub(crate) level: Option<String>,
-    /// Folder for a page that opens offline, stability.html, with the same data in stability.json and stability.csv beside it
+    /// Folder for a page that opens offline, stability.html, with the same data in stability.json and stability.csv beside it, and each map as an SVG file
     #[arg(long, value_name = "FOLDER", default_value = "cgt-stability")]
     pub(crate) out: PathBuf,
 }
@@ -322,6 +345,28 @@ pub(crate) struct Spu {
     /// Walk so many times by that loop and print the cells: what --host counts
     #[arg(long, hide = true, value_name = "LOOP:LEVEL:WALKS")]
     pub(crate) walk: Option<String>,
+    #[command(flatten)]
+    pub(crate) view: View,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Figures {
+    /// Scene: a name or generator (see `cgt scenes`), or a file
+    #[arg(value_name = "SCENE", default_value = verify::scenes::catalogue::DEFAULT)]
+    pub(crate) scene: String,
+    /// Folder for screen.svg, frustum.svg, loops.svg, corners.svg and the page figures.html; files of the same names in it
+    /// are replaced
+    #[arg(long, value_name = "FOLDER", default_value = "cgt-figures")]
+    pub(crate) out: PathBuf,
+    /// Column and row of a pixel whose block is looked at [default: the block that visits most cells among those that hit]
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pub(crate) pixel: Option<[u32; 2]>,
+    /// Plan of the grid tracer
+    #[arg(long, value_name = "NAME", value_parser = ["paper", "safe"], default_value = "paper")]
+    pub(crate) plan: String,
+    /// Cells of the grid on each axis, 1 to 64 [default: the plan's: 16 for `paper`, chosen for the scene for `safe`]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u8).range(1..=64))]
+    pub(crate) grid: Option<u8>,
     #[command(flatten)]
     pub(crate) view: View,
 }

@@ -1,12 +1,11 @@
 //! One pixel told step by step, by the shipped code itself: its ray, the grid, the slices and cells its packet comes to, what they list,
 //! each culling and each intersection with the numbers that were compared, what the stages decided, and the exact answer.
 //!
-//! In: a case, a frame, a pixel. Out: text. The tracer's kernels run on a machine that notes every comparison (module `watch`); nothing of
+//! In: a case, a frame, a pixel. Out: text. The tracer's kernels run on a machine that notes every comparison (`watch`); nothing of
 //! them is written a second time here. Plans with tiles are told by the walk of the pixel's own block, which a tile makes for many at once.
 
-mod watch;
-
 use super::{Asked, Case, CaseError};
+use crate::watch::{Note, Part, watched};
 use contract::{Camera, Image, MISS, Scene, Size, Sphere};
 use optimized::camera;
 use optimized::crew::Crew;
@@ -16,11 +15,9 @@ use optimized::grid::{Grid, Memory};
 use optimized::host::Scalar;
 use optimized::machine::{LANES, Site};
 use optimized::plan::{Arithmetic, Packet, Plan};
-use optimized::seen::{Seen, Worker};
+use optimized::seen::Seen;
 use reference::{Arithmetic as Naively, Ray, Tracer};
-use std::cell::RefCell;
 use std::fmt::Write as _;
-use watch::{Note, Part, Watch};
 
 /// The most spheres and cells that are told of one by one.
 const MOST: usize = 40;
@@ -221,11 +218,8 @@ fn told_grid(out: &mut String, grid: &Grid, slices: &Slices, heading: Heading) {
 
 /// Each sphere that a packet meets, with what was compared, in the order in which that happened.
 fn told_meetings(out: &mut String, seen: &Seen, scene: &Scene, dir: [[f32; LANES]; 3], lane: usize) {
-    let notes = RefCell::new(Vec::new());
-    let m = Watch { values: Scalar, notes: &notes };
-    let mut worker = Worker::default();
-    seen.trace(m, scene.spheres(), &camera::Block::new(m, dir), None, &mut worker);
-    let meetings = Meeting::all(&notes.into_inner());
+    let packet = watched(seen, scene, dir);
+    let meetings = Meeting::all(&packet.notes);
     line(
         out,
         format_args!("\nmet        {} times a sphere by the packet; lane {lane} of each:", meetings.len()),
@@ -236,7 +230,7 @@ fn told_meetings(out: &mut String, seen: &Seen, scene: &Scene, dir: [[f32; LANES
     if meetings.len() > MOST {
         line(out, format_args!("  ({} more)", meetings.len() - MOST));
     }
-    let counts = worker.counts;
+    let counts = packet.counts;
     line(
         out,
         format_args!(
@@ -307,7 +301,7 @@ impl Meeting {
                 },
                 Note::Any(Site::Culled, lanes) => meeting.dropped = lanes != 0,
                 Note::Any(Site::Sphere, lanes) => meeting.possible = Some(lanes != 0),
-                Note::Any(..) | Note::Sphere(_) => {}
+                Note::Any(..) | Note::Sphere(_) | Note::Cell { .. } => {}
             }
         }
         meetings

@@ -1,7 +1,7 @@
 //! `cgt report`: everything the suite finds out, on one page that opens offline, with the data of each chapter beside it.
 
 use super::verify::{judged, load};
-use super::{ablate, bench, chart, stability};
+use super::{ablate, bench, chart, figures, stability};
 use crate::args;
 use crate::environment::environment;
 use crate::{Failure, progress, say};
@@ -12,6 +12,8 @@ use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 use verify::claims::claims;
+use verify::figures::alone;
+use verify::figures::page::part as figure_part;
 use verify::picture::{check_folder, write_atomically};
 use verify::prove::run::{Proofs, run as prove};
 use verify::prove::solver::Solver;
@@ -125,6 +127,8 @@ fn chapters(
         chapter("where methods break");
         let broken_at = stability::found(&args::Stability {
             scenes: names.to_vec(),
+            only: Vec::new(),
+            methods: Vec::new(),
             rays: args.rays,
             level: None,
             out: folder.clone(),
@@ -148,6 +152,14 @@ fn chapters(
         })?;
         beside(folder, "ablation", &ablated, Some(ablated.csv()?))?;
         parts.push(part("ablation", "What each choice buys", ablation::page::part(&ablated)?));
+    }
+    if wanted("figures") {
+        chapter("the paper's figures");
+        let drawn = figures::drawn(&args::Figures::of(&names[0], folder))?.1;
+        for figure in &drawn {
+            write_atomically(&folder.join(format!("{}.svg", figure.name)), alone(&figure.svg).as_bytes())?;
+        }
+        parts.push(part("figures", "The paper's four figures, drawn by the code", figure_part(&drawn)?));
     }
     if wanted("bench") {
         chapter("how fast");

@@ -109,8 +109,13 @@ fn scenes(args: &Args) -> Vec<String> {
 }
 
 fn plan(args: &Args) -> Plan {
-    let plan = if args.plan == "safe" { Plan::safe() } else { Plan::paper() };
-    match args.grid {
+    plan_named(&args.plan, args.grid)
+}
+
+/// A plan of the model by its name, with so many cells on an axis if they are said.
+pub(super) fn plan_named(name: &str, cells: Option<u8>) -> Plan {
+    let plan = if name == "safe" { Plan::safe() } else { Plan::paper() };
+    match cells {
         Some(n) => Plan { resolution: Resolution::Fixed(n), ..plan },
         None => plan,
     }

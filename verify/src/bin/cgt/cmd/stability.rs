@@ -13,7 +13,7 @@ use verify::picture::{check_folder, write_atomically};
 use verify::report::Absent;
 use verify::scenes::catalogue::Source;
 use verify::seed::seed;
-use verify::stability::measure::Named;
+use verify::stability::measure::{Named, names};
 use verify::stability::{Asked, SCHEMA_VERSION, Stability, page, stability, steps, text};
 
 /// Scenes on which grid and packet are turned up, where none is named.
@@ -27,6 +27,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     std::fs::create_dir_all(&args.out)
         .map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
     write_atomically(&args.out.join("stability.csv"), &found.csv()?)?;
+    for (name, svg) in page::files(&found) {
+        write_atomically(&args.out.join(name), svg.as_bytes())?;
+    }
     files::write("stability", (None, Some(&args.out)), &found, page::page)?;
     say(&text::text(&found))?;
     say(&format!("page: {}\n", args.out.join("stability.html").display()))?;
@@ -36,9 +39,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 /// Measures all of it.
 pub(crate) fn found(args: &Args) -> Result<Stability, Failure> {
     let level = args.level.as_deref().map_or_else(Level::best, Level::named)?;
-    let names = if args.scenes.is_empty() { SCENES.map(str::to_owned).to_vec() } else { args.scenes.clone() };
+    let words = if args.scenes.is_empty() { SCENES.map(str::to_owned).to_vec() } else { args.scenes.clone() };
     let mut scenes = Vec::new();
-    for word in &names {
+    for word in &words {
         let loaded = Source::parse(word)?.load()?;
         warn(&loaded);
         let mut framing = loaded.framing.unwrap_or_default();
@@ -48,11 +51,15 @@ pub(crate) fn found(args: &Args) -> Result<Stability, Failure> {
     }
     let mut absent: Vec<Absent> = Vec::new();
     // Who is missing is missing everywhere.
-    _ = swept(None, level, &mut absent);
-    let methods = |cells| -> Vec<Method> { swept(cells, level, &mut Vec::new()) };
+    let all: Vec<String> = swept(None, level, &mut absent).into_iter().map(|method| method.name).collect();
+    known(&args.methods, &all, "method")?;
+    known(&args.only, &names(), "sweep")?;
+    let wanted = |method: &Method| args.methods.is_empty() || args.methods.contains(&method.name);
+    let methods =
+        |cells| -> Vec<Method> { swept(cells, level, &mut Vec::new()).into_iter().filter(&wanted).collect() };
     let seed = seed();
-    let asked = Asked { methods: &methods, level, rays: args.rays, seed, scenes: &scenes };
-    let tick = progress::bar("stability", "values", steps(scenes.len()));
+    let asked = Asked { methods: &methods, level, rays: args.rays, seed, scenes: &scenes, only: &args.only };
+    let tick = progress::bar("stability", "values", steps(&asked));
     let (curves, maps) = stability(&asked, &*tick);
     let mut environment = environment(1, &[level]);
     environment.seed = Some(seed);
@@ -65,4 +72,12 @@ pub(crate) fn found(args: &Args) -> Result<Stability, Failure> {
         curves,
         maps,
     })
+}
+
+/// Refuses names that are none.
+fn known(given: &[String], all: &[String], what: &str) -> Result<(), Failure> {
+    match given.iter().find(|name| !all.contains(name)) {
+        Some(name) => Err(format!("`{name}` is no {what}; there are {}", all.join(", ")).into()),
+        None => Ok(()),
+    }
 }

@@ -1,11 +1,19 @@
-//! A machine that computes as another one does and notes what is compared: how an account sees into kernels.
+//! A machine that computes as another one does and notes what is visited, met and compared: how accounts and figures see into
+//! the tracer without a second one being written.
+//!
+//! In: what a frame prepared, and the directions of a block. Out: the notes in the order in which things happened, what the packet
+//! counted itself, and its answers ([`watched`]).
 
+use contract::Scene;
+use optimized::camera::Block;
+use optimized::host::Scalar;
 use optimized::machine::{Chore, LANES, Machine, Site, Stage};
+use optimized::seen::{Counts, Seen, Worker};
 use std::cell::RefCell;
 
 /// Which part of the work a comparison belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(crate) enum Part {
     Cull,
     Intersect,
     Other,
@@ -13,9 +21,11 @@ pub(super) enum Part {
 
 /// What happened.
 #[derive(Clone, Debug)]
-pub(super) enum Note {
+pub(crate) enum Note {
     /// A part of the work begins.
     Part(Part),
+    /// A cell is come to: number of its slice in the walk, j, k, and whether it is visited.
+    Cell { slice: usize, j: i32, k: i32, live: bool },
     /// A sphere is met.
     Sphere(u32),
     /// x < y was asked, or if not `strict` x <= y.
@@ -26,9 +36,31 @@ pub(super) enum Note {
 
 /// Computes as `values` does and notes.
 #[derive(Clone, Copy)]
-pub(super) struct Watch<'a, V> {
-    pub(super) values: V,
-    pub(super) notes: &'a RefCell<Vec<Note>>,
+struct Watch<'a, V> {
+    values: V,
+    notes: &'a RefCell<Vec<Note>>,
+}
+
+/// A block that was traced under watch.
+pub(crate) struct Watched {
+    /// What happened, in its order.
+    pub(crate) notes: Vec<Note>,
+    /// What the packet counted itself.
+    pub(crate) counts: Counts,
+    /// t of each lane.
+    pub(crate) t: [f32; LANES],
+    /// Id of each lane; [`NONE`](optimized::sphere::NONE) is a miss.
+    pub(crate) ids: [i32; LANES],
+}
+
+/// Traces the block of those directions, by axis and lane, on the scalar machine.
+pub(crate) fn watched(seen: &Seen, scene: &Scene, dir: [[f32; LANES]; 3]) -> Watched {
+    let notes = RefCell::new(Vec::new());
+    let m = Watch { values: Scalar, notes: &notes };
+    let mut worker = Worker::default();
+    let answers = seen.trace(m, scene.spheres(), &Block::new(m, dir), None, &mut worker);
+    let (t, ids) = (m.to_array(answers.t), m.to_array_i(answers.owners.id));
+    Watched { notes: notes.into_inner(), counts: worker.counts, t, ids }
 }
 
 impl<V> Watch<'_, V> {
@@ -68,8 +100,10 @@ impl<'a, V: Machine> Machine for Watch<'a, V> {
         }));
     }
     fn beside<R>(self, chore: Chore, work: impl FnOnce() -> R) -> R {
-        if let Chore::Sphere(id) = chore {
-            self.note(Note::Sphere(id));
+        match chore {
+            Chore::Sphere(id) => self.note(Note::Sphere(id)),
+            Chore::Cell { slice, j, k, live } => self.note(Note::Cell { slice, j, k, live }),
+            _ => {}
         }
         work()
     }

@@ -1,0 +1,45 @@
+//! The figures of a scene as one HTML page that needs nothing but itself.
+
+use super::Figure;
+use crate::report::Environment;
+use askama::Template;
+
+/// What stands on the page beside the figures.
+#[derive(Clone, Debug)]
+pub struct About {
+    /// The scene's name.
+    pub scene: String,
+    /// Spheres, pixels and plan in a sentence.
+    pub facts: String,
+    /// Where, when and how it was made.
+    pub environment: Environment,
+}
+
+#[derive(Template)]
+#[template(path = "figures.html")]
+struct Page<'a> {
+    about: &'a About,
+    figures: &'a [Figure],
+}
+
+#[derive(Template)]
+#[template(path = "figures-part.html")]
+struct Part<'a> {
+    figures: &'a [Figure],
+}
+
+/// The figures as a part of a page that has their style.
+///
+/// # Errors
+/// If the template fails, which its types give no cause for.
+pub fn part(figures: &[Figure]) -> Result<String, askama::Error> {
+    Part { figures }.render()
+}
+
+/// The page.
+///
+/// # Errors
+/// If the template fails, which its types give no cause for.
+pub fn page(about: &About, figures: &[Figure]) -> Result<String, askama::Error> {
+    Page { about, figures }.render()
+}
