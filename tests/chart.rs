@@ -9,8 +9,10 @@ use verify::judge::compare::compare;
 use verify::methods::{Family, Method, charted};
 use verify::report::Environment;
 use verify::scenes::catalogue::Source;
-use verify::scenes::frame::Framing;
+use verify::scenes::frame::{Framing, in_view};
 use verify::scenes::read::Loaded;
+use verify::spu::predict::Policy;
+use verify::spu::survey::{Input, survey};
 
 fn loaded() -> Loaded {
     Source::parse("uniform:60:1").and_then(|source| source.load()).expect("generated")
@@ -153,4 +155,51 @@ fn an_ablation_changes_one_thing_at_a_time() {
     let paper = found.bases.iter().find(|base| base.name == "paper").expect("it is a base");
     let mended = |choice: &str| paper.rows.iter().find(|row| row.choice == choice).and_then(|row| row.wrong);
     assert!(mended("lists") <= paper.wrong && mended("box range") <= paper.wrong, "{paper:?}");
+}
+
+#[test]
+fn from_farther_away_the_scene_stays_in_view() {
+    let loaded = loaded();
+    let spheres = loaded.animation.frames()[0].spheres();
+    for times in [1.0, 10.0, 1000.0] {
+        let far = at(&loaded, times);
+        let seen = spheres.iter().filter(|sphere| in_view(&far.camera, sphere)).count();
+        assert!(
+            seen >= spheres.len() * 9 / 10,
+            "{times} times as far {seen} of {} are in view",
+            spheres.len()
+        );
+        let ratio = far.radii / at(&loaded, 1.0).radii;
+        assert!((ratio / times - 1.0).abs() < 1e-6, "{times} times as far is {ratio} times as many radii");
+        // What is said of the distance is the camera's.
+        let eye = far.camera.eye().map(f64::from);
+        let length = eye.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let mut radii: Vec<f32> = spheres.iter().map(|sphere| sphere.radius).collect();
+        radii.sort_by(f32::total_cmp);
+        let own = length / f64::from(radii[radii.len() / 2]);
+        assert!(
+            (0.5..2.0).contains(&(own / far.radii)),
+            "{own} radii from the origin, {} are told",
+            far.radii
+        );
+    }
+}
+
+/// Cycles of a ray are those of the frame on six SPUs, as a survey of it has them.
+#[test]
+fn cycles_are_those_of_the_survey() {
+    let (loaded, paper) = (loaded(), Plan::paper());
+    let (scene, far) = (&loaded.animation.frames()[0], at(&loaded, 1.0));
+    let method = Method::grid("paper", Family::Paper, move |_| paper, Level::SCALAR, 1).with_spu(paper);
+    let asked = Asked { name: "sixty", frame: 0, scene, methods: &[method], rounds: 1, every: 1, seed: 1 };
+    let view = measure(&asked, &far, &silent).expect("small");
+    let input =
+        Input { name: "sixty", frame: 0, scene, camera: &far.camera, plan: paper, every: 1, unlimited: true };
+    let survey = survey(&input, &|| ()).expect("the model has such packets");
+    let expected =
+        survey.rates[Policy::Hinted as usize].frame_cycles.map(|cycles| cycles * 6.0 / (50.0 * 37.0));
+    let found = view.points[0].spu_cycles_per_ray.expect("the model ran");
+    for (found, expected) in found.into_iter().zip(expected) {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} cycles a ray, the survey has {expected}");
+    }
 }

@@ -4,11 +4,14 @@ use contract::Size;
 use optimized::{Level, Plan};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
+use verify::advice::advice;
+use verify::chart::{Chart, Point, View};
 use verify::methods::{Family, Method, swept};
 use verify::report::Environment;
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::seed::{count, seed};
+use verify::stability::breakdown::breakdown;
 use verify::stability::data::Count;
 use verify::stability::measure::Named;
 use verify::stability::{Asked, SCHEMA_VERSION, Stability, stability, steps};
@@ -182,4 +185,78 @@ fn a_run_is_its_seed_and_a_liar_is_named() {
     assert_eq!(csv.lines().count(), 1 + expected);
     let page = verify::stability::page::page(&one).expect("filled in");
     assert!(page.contains("liar") && page.contains("Where each method breaks") && !page.contains("http://"));
+}
+
+#[test]
+fn breakdowns_are_looked_for_away_from_the_easy_value() {
+    let values = [0.01, 0.1, 1.0, 10.0, 100.0];
+    let rates = [Some(0.5), Some(0.0), Some(0.0), Some(1e-5), Some(0.02)];
+    let found = breakdown(&values, &rates, 1.0);
+    assert_eq!(found.up, [Some(10.0), Some(10.0), Some(100.0), Some(100.0)]);
+    assert_eq!(found.down, [Some(0.01); 4]);
+    let unknown = breakdown(&values, &[None, None, Some(0.0), None, None], 1.0);
+    assert_eq!((unknown.up, unknown.down), ([None; 4], [None; 4]), "what was not measured breaks nothing");
+    let easy = breakdown(&[1.0, 2.0], &[Some(1.0), Some(0.0)], 1.0);
+    assert_eq!((easy.up[3], easy.down[3]), (Some(1.0), Some(1.0)));
+}
+
+/// Of rates that are made up, so that nothing depends on what is drawn.
+#[test]
+fn advice_is_what_was_measured() {
+    let mut found = all().clone();
+    found.curves.retain(|curve| curve.name == "distance");
+    let ns = |method: &str, ns: f64| Point {
+        method: method.into(),
+        family: Family::Exact,
+        description: String::new(),
+        ns_per_ray: Some(ns),
+        spu_cycles_per_ray: None,
+        comparison: None,
+        paints: false,
+        remark: None,
+    };
+    let view = View {
+        scene: "made up".into(),
+        frame: 0,
+        spheres: 1,
+        size: [1, 1],
+        times_as_far: 1.0,
+        radii: 1.0,
+        hits: 1,
+        rounds: 1,
+        points: vec![ns("fast", 10.0), ns("safe", 5.0), ns("safe-textbook", 40.0)],
+    };
+    let environment = found.environment.clone();
+    let chart =
+        Chart { schema_version: 1, kind: "chart", environment, absent: Vec::new(), views: vec![view] };
+    let said = advice(&found, &chart);
+    let of = |name: &str| said.iter().find(|advice| advice.method.starts_with(name)).expect("it is told of");
+    assert!(
+        of("fast").never_wrong
+            && of("fast").holds_within.is_empty()
+            && of("fast").word.starts_with("Take this")
+    );
+    let safe = of("perpendicular");
+    assert!(!safe.never_wrong && safe.word.contains("0.500"), "{safe:?}");
+    let line = found.curve("distance").and_then(|curve| curve.line("safe")).expect("measured");
+    let last = line.counts.iter().take_while(|count| count.rate() < Some(1e-3)).count() - 1;
+    let expected = found.curve("distance").expect("measured").values[last];
+    assert!(
+        safe.holds_within.len() == 1 && safe.holds_within[0].starts_with("distance by radius: at most"),
+        "{safe:?}"
+    );
+    assert!((3e4..3e6).contains(&expected), "{expected}");
+    assert!(of("textbook form in f32").word.contains("nothing speaks for it"));
+    let page = verify::advice::part(&said).expect("filled in");
+    assert!(page.contains("never wrong in all that was tried") && page.contains("made up 10.0 ns"));
+    // What was not measured is no pass.
+    let mut blind = found.clone();
+    blind.curves[0]
+        .lines
+        .iter_mut()
+        .filter(|line| line.method == "fast")
+        .for_each(|line| line.counts[3] = Count::default());
+    assert!(!advice(&blind, &chart)[0].never_wrong);
+    assert!(verify::stability::page::page(&blind).expect("filled in").contains(": not measured</title>"));
+    assert!(!verify::stability::page::page(&found).expect("filled in").contains(": not measured</title>"));
 }

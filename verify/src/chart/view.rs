@@ -44,27 +44,3 @@ fn median_radius<'a>(spheres: impl Iterator<Item = &'a Sphere>) -> Option<f64> {
     radii.sort_by(f32::total_cmp);
     radii.get(radii.len() / 2).map(|radius| f64::from(*radius))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::Distance;
-    use crate::scenes::catalogue::Source;
-    use crate::scenes::frame::{Framing, in_view};
-
-    #[test]
-    fn the_scene_stays_in_view() {
-        let loaded = Source::parse("uniform:50:1").and_then(|source| source.load()).expect("generated");
-        let at = |times| Distance::new(&loaded.animation, &Framing::default(), times).expect("far away");
-        let spheres = loaded.animation.frames()[0].spheres();
-        for times in [1.0, 10.0, 1000.0] {
-            let seen = spheres.iter().filter(|sphere| in_view(&at(times).camera, sphere)).count();
-            assert!(
-                seen >= spheres.len() * 9 / 10,
-                "{times} times as far {seen} of {} are in view",
-                spheres.len()
-            );
-        }
-        let ratio = at(100.0).radii / at(1.0).radii;
-        assert!((ratio - 100.0).abs() < 1e-3, "100 times as far is {ratio} times as many radii");
-    }
-}

@@ -38,6 +38,8 @@ const LEFT: f64 = 190.0;
 const RIGHT: f64 = 700.0;
 const TOP: f64 = 26.0;
 const HIGH: f64 = 22.0;
+/// Columns that are all named.
+const FEW: usize = 15;
 
 /// How strong a rate is drawn, 0 to 1.
 fn strength(rate: f64) -> f64 {
@@ -94,7 +96,10 @@ pub(crate) fn heat(map: &Heat<'_>) -> Option<String> {
         }
     }
     let mut last = f64::NEG_INFINITY;
-    for (column, name) in map.columns.iter().enumerate() {
+    // Of many columns those are named that are powers of ten, if there are such.
+    let round = |name: &&String| name.starts_with("10") || ["0", "1"].contains(&name.as_str());
+    let rounded = columns > FEW && map.columns.iter().filter(round).count() > 2;
+    for (column, name) in map.columns.iter().enumerate().filter(|(_, name)| !rounded || round(name)) {
         let at = LEFT + wide * (column as f64 + 0.5);
         if at - last > (name.chars().count() as f64 * 7.0 + 10.0).max(30.0) {
             words(&mut svg, "middle", [at, bottom + 16.0], name);

@@ -28,7 +28,7 @@ pub(crate) fn escaped(text: &str) -> String {
 /// The beginning of a chart of a size; `title` is what it is called by those who do not see it.
 pub(crate) fn begin([width, height]: [f64; 2], title: &str) -> String {
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-label=\"{}\">",
+        "<svg class=\"plot\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-label=\"{}\">",
         escaped(title)
     )
 }
@@ -38,6 +38,12 @@ pub(crate) fn begin([width, height]: [f64; 2], title: &str) -> String {
 pub(crate) fn alone(svg: &str, style: &str) -> String {
     const COLORS: &str = include_str!("../../templates/colors.css");
     let fonts = ":root { --sans: system-ui, \"Segoe UI\", \"Helvetica Neue\", Arial, \"DejaVu Sans\", sans-serif; background: var(--paper); }";
+    // On a page an element needs no name space, in a file it does.
+    let svg = if svg.contains("xmlns=") {
+        svg.to_owned()
+    } else {
+        svg.replacen("<svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"", 1)
+    };
     let head = svg.find('>').map_or(0, |end| end + 1);
     format!(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}<style>\n{COLORS}{fonts}\n{style}</style>{}\n",

@@ -42,25 +42,3 @@ pub fn breakdown(values: &[f64], rates: &[Option<f64>], easy: f64) -> Breakdown 
     };
     Breakdown { up: reached(&mut (from..values.len())), down: reached(&mut (0..=from).rev()) }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::breakdown;
-
-    #[test]
-    fn it_is_looked_for_away_from_the_easy_value() {
-        let values = [0.01, 0.1, 1.0, 10.0, 100.0];
-        let rates = [Some(0.5), Some(0.0), Some(0.0), Some(1e-5), Some(0.02)];
-        let found = breakdown(&values, &rates, 1.0);
-        assert_eq!(found.up, [Some(10.0), Some(10.0), Some(100.0), Some(100.0)]);
-        assert_eq!(found.down, [Some(0.01); 4]);
-        let unknown = breakdown(&values, &[None, None, Some(0.0), None, None], 1.0);
-        assert_eq!((unknown.up, unknown.down), ([None; 4], [None; 4]));
-    }
-
-    #[test]
-    fn an_easy_value_that_fails_breaks_both_ways() {
-        let found = breakdown(&[1.0, 2.0], &[Some(1.0), Some(0.0)], 1.0);
-        assert_eq!((found.up[3], found.down[3]), (Some(1.0), Some(1.0)));
-    }
-}
