@@ -1,6 +1,5 @@
-//! A run of `cgt spu` as one HTML page that needs nothing but itself: verdicts, curves, and each scene's table.
+//! A run of `cgt spu` as one HTML page that needs nothing but itself: curves, and each scene's table.
 
-use super::claims::{Claim, Judgement};
 use super::curves::Curve;
 use super::data::Report;
 use super::survey::Survey;
@@ -14,11 +13,9 @@ use askama::Template;
 struct Page<'a> {
     report: &'a Report,
     rate: String,
-    claims: Vec<(&'a Claim, &'static str)>,
     curves: Vec<(String, Vec<Chart>)>,
     scenes: Vec<(&'a str, String)>,
     host: Option<String>,
-    seed: String,
 }
 
 struct Chart {
@@ -31,12 +28,6 @@ struct Chart {
 /// # Errors
 /// If the template fails, which its types give no cause for.
 pub fn page(report: &Report) -> Result<String, askama::Error> {
-    let class = |judgement| match judgement {
-        Judgement::Confirmed => "equal",
-        Judgement::Refuted => "wrong",
-        Judgement::Conditional | Judgement::Undecided => "undecidable",
-        Judgement::NotJudged => "unjudged",
-    };
     let rate = report.surveys.first().map_or_else(String::new, |survey| {
         let [least, most] = survey.rates[super::predict::Policy::Hinted as usize].frames_per_second;
         format!("{} to {}", figure(least), figure(most))
@@ -44,11 +35,9 @@ pub fn page(report: &Report) -> Result<String, askama::Error> {
     let page = Page {
         report,
         rate,
-        claims: report.claims.iter().map(|claim| (claim, class(claim.judgement))).collect(),
         curves: report.curves.iter().map(|curve| (title(curve), charts(curve))).collect(),
         scenes: report.surveys.iter().map(|survey| (survey.scene.as_str(), text(survey))).collect(),
         host: report.host.as_ref().map(ToString::to_string),
-        seed: report.environment.seed.map_or_else(|| "none".into(), |seed| seed.to_string()),
     };
     page.render()
 }

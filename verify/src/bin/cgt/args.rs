@@ -36,6 +36,7 @@ Examples:
   cgt render sphereflake:4 flake.png --size 800x600
   cgt bench 1hvr --peers embree --threads 1
   cgt spu 1hvr                          cycles on a PlayStation 3, stage by stage
+  cgt claims                            the paper's claims one by one, computed anew
   cgt figures 1hvr                      the paper's four figures of a scene, as SVG and on a page
   cgt prove                             proofs of the kernels, by solvers
   cgt replay tests/cases/NAME.json      a case again, its pixel step by step
@@ -52,6 +53,8 @@ pub(crate) enum Command {
     Render(Render),
     /// Count the cycles of the PlayStation 3's processor: by stage, with mispredicts, memory and what each trick saves
     Spu(Spu),
+    /// Hold each of the paper's claims against what is found: verdict, evidence, figures, counterexample
+    Claims(Claims),
     /// Draw the paper's four figures from a scene: blocks and what they cost, a frustum, the loops, the eight corners
     Figures(Figures),
     /// Prove what the kernels do for all inputs, with the solvers that are there (z3, bitwuzla, cvc5)
@@ -157,8 +160,8 @@ pub(crate) struct Bench {
 
 #[derive(Args, Debug)]
 pub(crate) struct Spu {
-    /// Scenes, as for `verify` [default: 1hvr; with --claims 1hvr, adk, sphereflake:3 and :4, and 500 to 4000 random spheres]
-    #[arg(value_name = "SCENE")]
+    /// Scenes, as for `verify`
+    #[arg(value_name = "SCENE", default_values_t = [verify::scenes::catalogue::DEFAULT.to_owned()])]
     pub(crate) scenes: Vec<String>,
     /// Plan of the grid tracer
     #[arg(long, value_name = "NAME", value_parser = ["paper", "safe"], default_value = "paper")]
@@ -176,11 +179,8 @@ pub(crate) struct Spu {
     #[arg(long)]
     pub(crate) unlimited: bool,
     /// Show how many spheres fit beside which grid, and measure nothing
-    #[arg(long, conflicts_with_all = ["claims", "curves", "json", "frames"])]
+    #[arg(long, conflicts_with_all = ["curves", "json", "frames"])]
     pub(crate) capacity: bool,
-    /// Hold each of the paper's claims against what was measured; implies --unlimited
-    #[arg(long)]
-    pub(crate) claims: bool,
     /// Also measure over scene size and grid size, for the page spu.html in --out
     #[arg(long, requires = "out")]
     pub(crate) curves: bool,
@@ -196,6 +196,24 @@ pub(crate) struct Spu {
     /// Walk so many times by that loop and print the cells: what --host counts
     #[arg(long, hide = true, value_name = "LOOP:LEVEL:WALKS")]
     pub(crate) walk: Option<String>,
+    #[command(flatten)]
+    pub(crate) view: View,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Claims {
+    /// Scenes, as for `verify` [default: 1hvr, adk, sphereflake:3 and :4, and 500 to 4000 random spheres]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// Trace one of so many blocks; they stand for all
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=1000))]
+    pub(crate) sample: u32,
+    /// File for all that was found, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// File for the table of claims, in Markdown as in README
+    #[arg(long, value_name = "FILE")]
+    pub(crate) markdown: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) view: View,
 }

@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         Some(Command::Render(args)) => cmd::render::render(&args),
         Some(Command::Bench(args)) => cmd::bench::run(&args),
         Some(Command::Spu(args)) => cmd::spu::run(&args),
+        Some(Command::Claims(args)) => cmd::claims::run(&args),
         Some(Command::Figures(args)) => cmd::figures::run(&args),
         Some(Command::Prove(args)) => cmd::prove::run(&args),
         Some(Command::Replay(args)) => cmd::replay::run(&args),

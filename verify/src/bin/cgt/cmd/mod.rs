@@ -1,6 +1,7 @@
 //! The subcommands.
 
 pub(crate) mod bench;
+pub(crate) mod claims;
 pub(crate) mod figures;
 mod files;
 pub(crate) mod prove;
