@@ -166,13 +166,17 @@ const REFUSALS: &[Refusal] = &[
     (&["render", "1hvr", "x.jpg"], &["`x.jpg`", ".png", ".exr"]),
     (&["render", "1hvr", "x"], &["`x`", ".png", ".exr"]),
     (&["render", "1hvr", ""], &["<FILE>"]),
-    // Figures.
+    // Figures and claims.
     (&["figures", "nosuch"], &["nosuch", "1hvr"]),
     (&["figures", "--pixel", "400,0"], &["pixel (400, 0) lies beyond the picture of 320x180"]),
     (&["figures", "--pixel", "0,0"], &["the block at (0, 0) comes to no cell"]),
     (&["figures", "--pixel", "3"], &["expected X,Y"]),
     (&["figures", "--plan", "fast"], &["fast", "paper", "safe"]),
     (&["figures", "--out", "file"], &["`file`", "Not a directory"]),
+    (&["claims", "nosuch"], &["nosuch", "1hvr"]),
+    (&["claims", "adk"], &["the data of adk is absent", "tests/fetch-data"]),
+    (&["claims", "--json", "file/claims.json"], &["`file`", "Not a directory"]),
+    (&["claims", "--sample", "0"], &["--sample"]),
     // Usage.
     (&["render"], &["<SCENE>", "<FILE>"]),
     (&["--nosuch"], &["--nosuch", "--help"]),
@@ -406,10 +410,10 @@ fn charts_maps_and_the_report_are_made() {
     );
     let report =
         ["report", "uniform:50:1", "--film", "none", "--rays", "64", "--rounds", "1", "--size", "48x27"];
-    let met = desk.run(&[&report[..], &["--skip", "proofs,bench", "--out", "all"][..]].concat());
+    let met = desk.run(&[&report[..], &["--skip", "proofs,bench,figures", "--out", "all"][..]].concat());
     assert_eq!(met.code, 0, "{}{}", met.out, met.err);
     let page = std::fs::read_to_string(desk.path("all").join("report.html")).expect("there is a page");
-    for chapter in ["advice", "chart", "stability", "ablation"] {
+    for chapter in ["advice", "chart", "stability", "ablation", "paper", "spu"] {
         assert!(page.contains(&format!("<section id=\"{chapter}\"")), "{chapter} is no chapter");
     }
     assert!(!page.contains("<section id=\"proofs\"") && page.contains("shown as a known fault"));
@@ -450,9 +454,18 @@ fn help_is_enough_for_a_stranger() {
             "code {code} is not told"
         );
     }
-    for command in
-        ["verify", "render", "scenes", "replay", "chart", "stability", "ablate", "report", "figures"]
-    {
+    for command in [
+        "verify",
+        "render",
+        "scenes",
+        "replay",
+        "chart",
+        "stability",
+        "ablate",
+        "report",
+        "figures",
+        "claims",
+    ] {
         let help = desk.run(&[command, "--help"]);
         assert_eq!(help.code, 0, "{command}");
         assert!(help.out.contains("Usage: cgt"), "{command}");
@@ -662,7 +675,7 @@ fn a_full_standard_output_is_an_error_and_a_closed_one_is_not() {
     }
 }
 
-// ---- figures ----
+// ---- figures and claims ----
 
 /// Four files and a page, whole and each with the figure that the program's words tell of; written again they take the old ones' place.
 #[test]
@@ -688,6 +701,34 @@ fn figures_are_files_and_a_page() {
             assert!(said.out.contains(&format!("{figure}.svg: ")), "{}", said.out);
         }
     }
+}
+
+/// Claims on the terminal, as data and as a table, which all say the same; of the scenes of choice the absent ones are named, and are no pass.
+#[test]
+fn claims_are_judged_anew() {
+    let desk = Desk::new();
+    let words =
+        ["claims", "uniform:200:1", "--size", "64x36", "--json", "claims.json", "--markdown", "claims.md"];
+    let said = desk.run(&words);
+    assert_eq!((said.code, said.err.as_str()), (0, ""), "{}", said.out);
+    let text = std::fs::read_to_string(desk.path("claims.json")).expect("a file");
+    let record: Value = serde_json::from_str(&text).expect("JSON");
+    let table = std::fs::read_to_string(desk.path("claims.md")).expect("a file");
+    let claims = record["claims"].as_array().expect("claims");
+    assert!(claims.len() >= 40 && said.out.contains(&format!("CGT_SEED={}\n", record["seed"])));
+    let rows = table.lines().filter(|line| line.starts_with("| ")).count();
+    assert_eq!(rows, claims.len() + 1);
+    for claim in claims {
+        let statement = claim["statement"].as_str().expect("a statement");
+        assert!(table.contains(&format!("| {statement} |")), "{statement}");
+    }
+    let absent = desk.run(&["claims", "--size", "4x4", "--sample", "1000"]);
+    assert_eq!(absent.code, 3, "{}", absent.err);
+    assert!(
+        absent.out.starts_with("not judged: adk: data absent (run tests/fetch-data)\n"),
+        "{}",
+        absent.out
+    );
 }
 
 // ---- proofs ----

@@ -17,7 +17,6 @@ use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::seed::{count, generator, seed};
 use verify::spu::Spu;
-use verify::spu::claims::{Answer, Judgement, claims};
 use verify::spu::cost::{dealt, frame_cost};
 use verify::spu::dma::{Transfer, TransferError};
 use verify::spu::host::{SEED, Way, on_model, walks};
@@ -29,7 +28,7 @@ use verify::spu::predict::{Policy, Predictor, SITES};
 use verify::spu::recorder::{Booked, STAGES, Tally, cycles, record};
 use verify::spu::sequence::{Operand, TABLE};
 use verify::spu::store::{Buffers, CAPACITY, LocalStoreFull, Map, code_bytes, queue_bytes};
-use verify::spu::survey::{Input, Survey, SurveyError, survey};
+use verify::spu::survey::{Input, SurveyError, survey};
 use verify::visible::listed;
 
 const M: Spu<Scalar> = Spu(Scalar);
@@ -748,86 +747,6 @@ fn on_the_model_selection_is_what_saves() {
     assert_eq!(flattened.mispredicts[hinted], flattened.walks);
     assert!(branching.mispredicts[hinted] > 10 * flattened.walks);
     assert!(nested.mispredicts[hinted] > 10 * flattened.walks);
-}
-
-#[test]
-fn judgements_follow_answers() {
-    use Answer::{No, Open, Silent, Yes};
-    for (answers, judgement) in [
-        (&[Yes, Yes][..], Judgement::Confirmed),
-        (&[Yes, Silent], Judgement::Confirmed),
-        (&[Yes, Open], Judgement::Conditional),
-        (&[Yes, No], Judgement::Conditional),
-        (&[No, Open], Judgement::Refuted),
-        (&[No, Silent], Judgement::Refuted),
-        (&[Open, Silent], Judgement::Undecided),
-        (&[Silent], Judgement::NotJudged),
-        (&[], Judgement::NotJudged),
-    ] {
-        assert_eq!(Judgement::of(answers), judgement, "{answers:?}");
-    }
-}
-
-/// Verdicts come from figures: with other figures they are others.
-#[test]
-fn verdicts_turn_with_the_figures() {
-    let seed = seed();
-    eprintln!("CGT_SEED={seed}");
-    let (scene, camera) = view("uniform:300:1", [96, 54]);
-    let input = Input {
-        name: "uniform:300:1",
-        frame: 0,
-        scene: &scene,
-        camera: &camera,
-        plan: Plan::paper(),
-        every: 1,
-        unlimited: false,
-    };
-    let found = survey(&input, &|| ()).expect("it fits");
-    let judged = |surveys: &[Survey]| -> Vec<Judgement> {
-        claims(surveys, seed).iter().map(|claim| claim.judgement).collect()
-    };
-    let before = judged(std::slice::from_ref(&found));
-    let mut turned = vec![false; before.len()];
-    let mut better = found.clone();
-    better.picture.wrong = u64::from(found.picture.wrong == 0);
-    better.picture.wrong_as_printed = u64::from(found.picture.wrong_as_printed == 0);
-    better.lists.false_negatives = u64::from(found.lists.false_negatives == 0);
-    better.lists.spanning = u64::from(found.lists.spanning == 0);
-    better.lists.false_positives = found.lists.ids - found.lists.false_positives;
-    better.lists.dropped = u64::from(found.lists.dropped == 0);
-    better.culling.factor = found.culling.factor.map(|f| if (4.0..=8.0).contains(&f) { 1.0 } else { 5.0 });
-    std::mem::swap(&mut better.culling.cycles_with, &mut better.culling.cycles_without);
-    better.mailbox.saved = found.mailbox.saved.map(|saved| -saved);
-    better.store.spheres = CAPACITY;
-    better.store_double.spheres = CAPACITY;
-    for rate in &mut better.rates {
-        rate.frames_per_second = rate.frames_per_second.map(|rate| rate / 1e6);
-        rate.frame_cycles = [1.0, 1.0];
-    }
-    better.loops.swap(0, 1);
-    for kind in &mut better.loops {
-        kind.walk = if kind.walk == "nested" { "flattened" } else { "nested" };
-        for policy in &mut kind.policies {
-            policy.per_branch = 1.0 - policy.per_branch;
-        }
-    }
-    let after = judged(&[better]);
-    for (k, (a, b)) in before.iter().zip(&after).enumerate() {
-        turned[k] = a != b;
-    }
-    let claims = claims(std::slice::from_ref(&found), seed);
-    for (claim, turned) in claims.iter().zip(&turned) {
-        eprintln!(
-            "{} {}: {} [{}]",
-            if *turned { "turned" } else { "stayed" },
-            claim.judgement,
-            claim.claim,
-            claim.evidence
-        );
-    }
-    // Those that stay need no scene, but for the one of which small pictures say nothing.
-    assert!(turned.iter().filter(|turned| **turned).count() >= 18, "too few verdicts depend on figures");
 }
 
 /// The survey's own sums: culling, mailbox and lists against the tracer's counts.

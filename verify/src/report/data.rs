@@ -5,7 +5,7 @@
 use crate::judge::outside::Hearing;
 use crate::verdict::{Comparison, Verdict};
 use contract::Camera;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Version of the layout of `report.json`.
 pub const SCHEMA_VERSION: u32 = 3;
@@ -30,7 +30,7 @@ pub struct Report {
 }
 
 /// Where, when and how a run was made.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Environment {
     /// Name and version of the program.
     pub program: String,
@@ -168,7 +168,7 @@ pub struct Claim {
 }
 
 /// What a claim rests on, from strong to weak.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Evidence {
     /// For all inputs, by a solver or an exhaustive run.
     Proved,

@@ -1,6 +1,5 @@
 //! All of a run of `cgt spu` as plain data, whose JSON these types are. A changed field means a new [`SCHEMA_VERSION`].
 
-use super::claims::Claim;
 use super::curves::Curve;
 use super::host::OnHost;
 use super::survey::Survey;
@@ -8,7 +7,7 @@ use crate::report::Environment;
 use serde::Serialize;
 
 /// Version of the layout of the JSON file.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// All of a run.
 #[derive(Clone, Debug, Serialize)]
@@ -17,12 +16,10 @@ pub struct Report {
     pub schema_version: u32,
     /// What this file is: `spu`.
     pub kind: &'static str,
-    /// Where, when and how the run was made; `seed` is that of the directed inputs of a claim.
+    /// Where, when and how the run was made.
     pub environment: Environment,
     /// Scene by scene.
     pub surveys: Vec<Survey>,
-    /// The paper's claims, if they were asked for.
-    pub claims: Vec<Claim>,
     /// How figures grow, if it was asked.
     pub curves: Vec<Curve>,
     /// Counts of this computer, if they were asked for.

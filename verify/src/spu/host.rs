@@ -57,7 +57,7 @@ const SLICES: usize = 16;
 const DIFFERENT: usize = 64;
 
 /// What one walk goes through.
-pub(super) fn random_slices(seed: u64) -> Vec<Slices> {
+pub(crate) fn random_slices(seed: u64) -> Vec<Slices> {
     let mut rng = generator(seed, 1);
     let mut one = |_| {
         let mut slices = Slices {
@@ -93,16 +93,16 @@ impl Sum {
     }
 }
 
-pub(super) struct Summing<M>(pub(super) M, Sum);
+pub(crate) struct Summing<M>(pub(crate) M, Sum);
 
 impl<M> Summing<M> {
     /// Nothing visited yet.
-    pub(super) fn new(m: M) -> Self {
+    pub(crate) fn new(m: M) -> Self {
         Self(m, Sum::default())
     }
 
     /// Cells visited.
-    pub(super) fn cells(&self) -> u64 {
+    pub(crate) fn cells(&self) -> u64 {
         self.1.cells
     }
 }

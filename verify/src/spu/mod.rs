@@ -6,8 +6,8 @@
 //! The modules in the order in which a run goes through them: the instructions ([`isa`]), what each operation is in instructions
 //! ([`sequence`]), the two clocks ([`pipeline`]), branches ([`predict`]), where all is booked ([`recorder`]), the
 //! [`Machine`](optimized::machine::Machine) that books ([`machine`]), memory ([`store`], [`dma`]), a frame ([`model`](mod@model)), and what it costs
-//! over six SPUs ([`cost`]), all that is to be said of a scene ([`survey`](mod@survey)), and of the
-//! paper ([`claims`](mod@claims)). [`host`] has the same loops on this computer;
+//! over six SPUs ([`cost`]), and all that is to be said of a scene ([`survey`](mod@survey));
+//! [`crate::paper`] holds the paper's claims against it. [`host`] has the same loops on this computer;
 //! [`text`](mod@text), [`page`](mod@page) with its [`curves`](mod@curves), and [`data`] show it all.
 //!
 //! # What is left out, and in which direction that errs
@@ -25,7 +25,6 @@
 //!
 //! Neither: values. They are those of the machine inside [`Spu`], and no branch is taken otherwise for the model's sake.
 
-pub mod claims;
 pub mod cost;
 pub mod curves;
 pub mod data;

@@ -1,6 +1,5 @@
-//! A run of `cgt spu` as one HTML page that needs nothing but itself: verdicts, curves, and each scene's table.
+//! A run of `cgt spu` as one HTML page that needs nothing but itself: curves, and each scene's table.
 
-use super::claims::{Claim, Judgement};
 use super::curves::Curve;
 use super::data::Report;
 use super::survey::Survey;
@@ -14,11 +13,15 @@ use askama::Template;
 struct Page<'a> {
     report: &'a Report,
     rate: String,
-    claims: Vec<(&'a Claim, &'static str)>,
+    part: String,
+}
+
+#[derive(Template)]
+#[template(path = "spu-part.html")]
+struct Part<'a> {
     curves: Vec<(String, Vec<Chart>)>,
     scenes: Vec<(&'a str, String)>,
     host: Option<String>,
-    seed: String,
 }
 
 struct Chart {
@@ -31,26 +34,25 @@ struct Chart {
 /// # Errors
 /// If the template fails, which its types give no cause for.
 pub fn page(report: &Report) -> Result<String, askama::Error> {
-    let class = |judgement| match judgement {
-        Judgement::Confirmed => "equal",
-        Judgement::Refuted => "wrong",
-        Judgement::Conditional | Judgement::Undecided => "undecidable",
-        Judgement::NotJudged => "unjudged",
-    };
     let rate = report.surveys.first().map_or_else(String::new, |survey| {
         let [least, most] = survey.rates[super::predict::Policy::Hinted as usize].frames_per_second;
         format!("{} to {}", figure(least), figure(most))
     });
-    let page = Page {
-        report,
-        rate,
-        claims: report.claims.iter().map(|claim| (claim, class(claim.judgement))).collect(),
-        curves: report.curves.iter().map(|curve| (title(curve), charts(curve))).collect(),
-        scenes: report.surveys.iter().map(|survey| (survey.scene.as_str(), text(survey))).collect(),
-        host: report.host.as_ref().map(ToString::to_string),
-        seed: report.environment.seed.map_or_else(|| "none".into(), |seed| seed.to_string()),
+    let host = report.host.as_ref().map(ToString::to_string);
+    Page { report, rate, part: part(&report.surveys, &report.curves, host)? }.render()
+}
+
+/// Curves and surveys as a part of a page that has the style of charts.
+///
+/// # Errors
+/// As [`page`].
+pub fn part(surveys: &[Survey], curves: &[Curve], host: Option<String>) -> Result<String, askama::Error> {
+    let part = Part {
+        curves: curves.iter().map(|curve| (title(curve), charts(curve))).collect(),
+        scenes: surveys.iter().map(|survey| (survey.scene.as_str(), text(survey))).collect(),
+        host,
     };
-    page.render()
+    part.render()
 }
 
 fn title(curve: &Curve) -> String {

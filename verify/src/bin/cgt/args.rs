@@ -40,6 +40,7 @@ Examples:
   cgt stability                         where each method breaks
   cgt ablate 1hvr                       what each choice of a plan buys
   cgt spu 1hvr                          cycles on a PlayStation 3, stage by stage
+  cgt claims                            the paper's claims one by one, computed anew
   cgt figures 1hvr                      the paper's four figures of a scene, as SVG and on a page
   cgt prove                             proofs of the kernels, by solvers
   cgt replay tests/cases/NAME.json      a case again, its pixel step by step
@@ -64,6 +65,8 @@ pub(crate) enum Command {
     Render(Render),
     /// Count the cycles of the PlayStation 3's processor: by stage, with mispredicts, memory and what each trick saves
     Spu(Spu),
+    /// Hold each of the paper's claims against what is found: verdict, evidence, figures, counterexample
+    Claims(Claims),
     /// Draw the paper's four figures from a scene: blocks and what they cost, a frustum, the loops, the eight corners
     Figures(Figures),
     /// Prove what the kernels do for all inputs, with the solvers that are there (z3, bitwuzla, cvc5)
@@ -78,7 +81,7 @@ const SUBJECTS: [&str; 6] =
     ["naive-f64", "naive-f32-perpendicular", "naive-f32-textbook", "fast", "safe", "paper"];
 const PLANS: [&str; 3] = ["fast", "safe", "paper"];
 /// Of a report, beside its pictures: speed and breakdown with the advice from both, and so on.
-const CHAPTERS: [&str; 5] = ["methods", "ablation", "figures", "bench", "proofs"];
+const CHAPTERS: [&str; 6] = ["methods", "ablation", "paper", "figures", "bench", "proofs"];
 const OUTSIDERS: [&str; 3] = ["embree", "bvh", "parry3d"];
 /// The outside judge.
 pub(crate) const EMBREE: &str = "embree";
@@ -306,8 +309,8 @@ pub(crate) struct Ablate {
 
 #[derive(Args, Debug)]
 pub(crate) struct Spu {
-    /// Scenes, as for `verify` [default: 1hvr; with --claims 1hvr, adk, sphereflake:3 and :4, and 500 to 4000 random spheres]
-    #[arg(value_name = "SCENE")]
+    /// Scenes, as for `verify`
+    #[arg(value_name = "SCENE", default_values_t = [verify::scenes::catalogue::DEFAULT.to_owned()])]
     pub(crate) scenes: Vec<String>,
     /// Plan of the grid tracer
     #[arg(long, value_name = "NAME", value_parser = ["paper", "safe"], default_value = "paper")]
@@ -325,11 +328,8 @@ pub(crate) struct Spu {
     #[arg(long)]
     pub(crate) unlimited: bool,
     /// Show how many spheres fit beside which grid, and measure nothing
-    #[arg(long, conflicts_with_all = ["claims", "curves", "json", "frames"])]
+    #[arg(long, conflicts_with_all = ["curves", "json", "frames"])]
     pub(crate) capacity: bool,
-    /// Hold each of the paper's claims against what was measured; implies --unlimited
-    #[arg(long)]
-    pub(crate) claims: bool,
     /// Also measure over scene size and grid size, for the page spu.html in --out
     #[arg(long, requires = "out")]
     pub(crate) curves: bool,
@@ -345,6 +345,24 @@ pub(crate) struct Spu {
     /// Walk so many times by that loop and print the cells: what --host counts
     #[arg(long, hide = true, value_name = "LOOP:LEVEL:WALKS")]
     pub(crate) walk: Option<String>,
+    #[command(flatten)]
+    pub(crate) view: View,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Claims {
+    /// Scenes, as for `verify` [default: 1hvr, adk, sphereflake:3 and :4, and 500 to 4000 random spheres]
+    #[arg(value_name = "SCENE")]
+    pub(crate) scenes: Vec<String>,
+    /// Trace one of so many blocks; they stand for all
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = value_parser!(u32).range(1..=1000))]
+    pub(crate) sample: u32,
+    /// File for all that was found, as JSON
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+    /// File for the table of claims, in Markdown as in README
+    #[arg(long, value_name = "FILE")]
+    pub(crate) markdown: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) view: View,
 }

@@ -28,6 +28,7 @@ fn main() -> ExitCode {
         Some(Command::Stability(args)) => cmd::stability::run(&args),
         Some(Command::Ablate(args)) => cmd::ablate::run(&args),
         Some(Command::Spu(args)) => cmd::spu::run(&args),
+        Some(Command::Claims(args)) => cmd::claims::run(&args),
         Some(Command::Figures(args)) => cmd::figures::run(&args),
         Some(Command::Prove(args)) => cmd::prove::run(&args),
         Some(Command::Replay(args)) => cmd::replay::run(&args),

@@ -3,6 +3,7 @@
 pub(crate) mod ablate;
 pub(crate) mod bench;
 pub(crate) mod chart;
+pub(crate) mod claims;
 pub(crate) mod figures;
 mod files;
 pub(crate) mod prove;

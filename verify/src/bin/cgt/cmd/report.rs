@@ -1,24 +1,29 @@
 //! `cgt report`: everything the suite finds out, on one page that opens offline, with the data of each chapter beside it.
 
 use super::verify::{judged, load};
-use super::{ablate, bench, chart, figures, stability};
+use super::{ablate, bench, chart, claims, figures, stability};
 use crate::args;
 use crate::environment::environment;
 use crate::{Failure, progress, say};
 use contract::Size;
-use optimized::Level;
+use optimized::{Level, Plan};
 use serde::Serialize;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
-use verify::claims::claims;
+use verify::claims::claims as all_claims;
 use verify::figures::alone;
 use verify::figures::page::part as figure_part;
+use verify::paper::claims as judge_claims;
+use verify::paper::page::part as paper_part;
 use verify::picture::{check_folder, write_atomically};
 use verify::prove::run::{Proofs, run as prove};
 use verify::prove::solver::Solver;
 use verify::report::{Part, Report, SCHEMA_VERSION, overall, text, write};
 use verify::seed::seed;
+use verify::spu::curves::{Asked as Curves, POINTS, curves};
+use verify::spu::page::part as spu_part;
+use verify::spu::survey::Survey;
 use verify::subject::{Grid, NAIVE, NamedPlan, Subject};
 use verify::verdict::Verdict;
 use verify::{ablation, advice, prove as proofs};
@@ -28,6 +33,8 @@ const SCENES: [&str; 3] = ["1hvr", "sphereflake:3", "uniform:2000:1"];
 /// Pixels where no size is asked for, and of a film.
 const SIZE: [u32; 2] = [640, 360];
 const FILM: [u32; 2] = [480, 270];
+/// Of so many blocks one is traced on the model of the paper's machine.
+const SAMPLE: u32 = 16;
 /// Pixels of a chart, in which slow methods take part.
 const CHART: [u32; 2] = [320, 180];
 
@@ -78,7 +85,7 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
         verdict,
         environment: environment(threads, &[level]),
         scenes,
-        claims: claims(),
+        claims: all_claims(),
         absent: Vec::new(),
     };
     let paths = write(&args.out, &report, &pictures, &parts)?;
@@ -153,6 +160,11 @@ fn chapters(
         beside(folder, "ablation", &ablated, Some(ablated.csv()?))?;
         parts.push(part("ablation", "What each choice buys", ablation::page::part(&ablated)?));
     }
+    if wanted("paper") {
+        let (paper, machine) = paper(folder, names, args.threads)?;
+        parts.push(part("paper", "The paper's claims, one by one", paper));
+        parts.push(part("spu", "The paper's machine", machine));
+    }
     if wanted("figures") {
         chapter("the paper's figures");
         let drawn = figures::drawn(&args::Figures::of(&names[0], folder))?.1;
@@ -179,6 +191,31 @@ fn chapters(
         parts.push(part("proofs", "Proved", proofs::page::part(&proved)?));
     }
     Ok((parts, broken))
+}
+
+/// The paper's claims on these scenes, and what a frame of them costs on its machine.
+fn paper(folder: &Path, names: &[String], threads: u16) -> Result<(String, String), Failure> {
+    chapter("the paper's claims");
+    // At the paper's own size, of whose blocks some stand for all.
+    let view = args::View { threads, ..args::View::default() };
+    let asked = args::Claims { scenes: names.to_vec(), sample: SAMPLE, json: None, markdown: None, view };
+    let mut scenes = Vec::new();
+    for word in names {
+        let (loaded, scene) = load(word, 0)?;
+        scenes.push((word.clone(), scene, loaded.camera(&asked.view.framing())?));
+    }
+    let looked = claims::all(&asked, &scenes)?;
+    let found = judge_claims(&looked, seed());
+    beside(folder, "claims", &found, None)?;
+    chapter("the paper's machine");
+    let (name, scene, camera) = &scenes[0];
+    let framing = asked.view.framing();
+    let over = Curves { plan: Plan::paper(), every: SAMPLE, framing: &framing, name, scene, camera };
+    let tick = progress::bar("curves", "on the SPU model", POINTS);
+    let curves = curves(&over, &*tick)?;
+    let surveys: Vec<Survey> = looked.into_iter().map(|looked| looked.survey).collect();
+    beside(folder, "spu", &(&surveys, &curves), None)?;
+    Ok((paper_part(&found)?, spu_part(&surveys, &curves, None)?))
 }
 
 /// What is being done goes to standard error.

@@ -11,9 +11,6 @@ use optimized::plan::Resolution;
 use std::path::Path;
 use std::process::ExitCode;
 use verify::picture::check_folder;
-use verify::scenes::catalogue::DEFAULT;
-use verify::seed::seed;
-use verify::spu::claims::{self, claims};
 use verify::spu::curves::{Asked, Curve, POINTS, curves};
 use verify::spu::data::{Report, SCHEMA_VERSION};
 use verify::spu::host::{SEED, Way, on_host, walks};
@@ -24,18 +21,6 @@ use verify::spu::text::{capacity, text};
 
 /// Walks that --host counts.
 const WALKS: u64 = 5000;
-
-/// Scenes on which claims are judged.
-const CLAIMED: [&str; 8] = [
-    "1hvr",
-    "adk",
-    "sphereflake:3",
-    "sphereflake:4",
-    "uniform:500:1",
-    "uniform:1000:1",
-    "uniform:2000:1",
-    "uniform:4000:1",
-];
 
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if args.capacity {
@@ -51,27 +36,20 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         check_folder(folder)?;
     }
     let mut surveys = Vec::new();
-    for word in scenes(args) {
+    for word in &args.scenes {
         for frame in args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1) {
-            let survey = one(args, &word, frame)?;
+            let survey = one(args, word, frame)?;
             say(&(text(&survey) + "\n"))?;
             surveys.push(survey);
         }
-    }
-    let seed = seed();
-    let claims = if args.claims { claims(&surveys, seed) } else { Vec::new() };
-    if args.claims {
-        say(&format!("CGT_SEED={seed}\n{}", claims::text(&claims)))?;
     }
     let host = if args.host { Some(on_host(&std::env::current_exe()?, WALKS)) } else { None };
     if let Some(host) = &host {
         say(&host.to_string())?;
     }
     let curves = if args.curves { both_curves(args)? } else { Vec::new() };
-    let mut environment = environment(1, &[]);
-    environment.seed = Some(seed);
-    let report =
-        Report { schema_version: SCHEMA_VERSION, kind: "spu", environment, surveys, claims, curves, host };
+    let environment = environment(1, &[]);
+    let report = Report { schema_version: SCHEMA_VERSION, kind: "spu", environment, surveys, curves, host };
     files::write("spu", (args.json.as_deref(), args.out.as_deref()), &report, page)?;
     if let Some(folder) = &args.out {
         say(&format!("page: {}\n", folder.join("spu.html").display()))?;
@@ -83,7 +61,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 const SAMPLE: u32 = 8;
 
 fn both_curves(args: &Args) -> Result<Vec<Curve>, Failure> {
-    let word = scenes(args).swap_remove(0);
+    let word = args.scenes[0].clone();
     let (loaded, scene) = load(&word, args.view.frame)?;
     let framing = args.view.framing();
     let camera = loaded.camera(&framing)?;
@@ -97,15 +75,6 @@ fn both_curves(args: &Args) -> Result<Vec<Curve>, Failure> {
     };
     let tick = progress::bar("curves", "on the SPU model", POINTS);
     Ok(curves(&asked, &*tick)?.into())
-}
-
-/// What is surveyed where no scene is named.
-fn scenes(args: &Args) -> Vec<String> {
-    if !args.scenes.is_empty() {
-        return args.scenes.clone();
-    }
-    let names: &[&str] = if args.claims { &CLAIMED } else { &[DEFAULT] };
-    names.iter().map(|name| (*name).to_owned()).collect()
 }
 
 fn plan(args: &Args) -> Plan {
@@ -132,7 +101,7 @@ fn one(args: &Args, word: &str, frame: usize) -> Result<Survey, Failure> {
         camera: &camera,
         plan: plan(args),
         every: args.sample,
-        unlimited: args.unlimited || args.claims,
+        unlimited: args.unlimited,
     };
     let tick = progress::bar(word, "on the SPU model", FRAMES * camera.size().height().div_ceil(BLOCK));
     Ok(survey(&input, &*tick).map_err(|error| format!("{word}: {error}"))?)

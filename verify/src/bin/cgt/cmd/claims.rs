@@ -1,0 +1,91 @@
+//! `cgt claims`: the paper's claims one by one, computed anew.
+
+use super::verify::{load, warn};
+use crate::args::Claims as Args;
+use crate::environment::environment;
+use crate::{Failure, progress, say};
+use contract::{Camera, Scene};
+use optimized::Plan;
+use rayon::prelude::*;
+use std::path::Path;
+use std::process::ExitCode;
+use verify::paper::record::{Record, SCENES, SCHEMA_VERSION};
+use verify::paper::text::text;
+use verify::paper::{Looked, claims, look, ticks};
+use verify::picture::{check_folder, write_atomically};
+use verify::scenes::catalogue::{Source, SourceError};
+use verify::seed::seed;
+use verify::spu::survey::Input;
+
+/// No verdict on all of what was asked.
+const NO_VERDICT: u8 = 3;
+
+pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    for file in [&args.json, &args.markdown].into_iter().flatten() {
+        check_folder(file.parent().unwrap_or(Path::new(".")))?;
+    }
+    let (mut scenes, mut absent) = (Vec::new(), 0);
+    for word in names(args) {
+        // Of the scenes of choice some may not have been fetched; one that is named must be there.
+        if args.scenes.is_empty()
+            && let Err(SourceError::DataAbsent { name, how }) = Source::parse(&word)?.load()
+        {
+            say(&format!("not judged: {name}: data absent (run {how})\n"))?;
+            absent += 1;
+            continue;
+        }
+        let (loaded, scene) = load(&word, args.view.frame)?;
+        warn(&loaded);
+        let camera = loaded.camera(&args.view.framing())?;
+        scenes.push((word, scene, camera));
+    }
+    let looked = all(args, &scenes)?;
+    let seed = seed();
+    let claims = claims(&looked, seed);
+    say(&format!("CGT_SEED={seed}\n{}", text(&claims)))?;
+    let size =
+        scenes.first().map_or([0; 2], |(_, _, camera)| [camera.size().width(), camera.size().height()]);
+    let mut environment = environment(args.view.threads(), &[]);
+    environment.seed = Some(seed);
+    let record = Record {
+        schema_version: SCHEMA_VERSION,
+        kind: "claims".into(),
+        environment,
+        seed,
+        size,
+        sample: args.sample,
+        scenes: scenes.into_iter().map(|(word, ..)| word).collect(),
+        claims,
+    };
+    if let Some(file) = &args.json {
+        write_atomically(file, (serde_json::to_string_pretty(&record)? + "\n").as_bytes())?;
+    }
+    if let Some(file) = &args.markdown {
+        write_atomically(file, record.markdown().as_bytes())?;
+    }
+    Ok(if absent == 0 { ExitCode::SUCCESS } else { ExitCode::from(NO_VERDICT) })
+}
+
+fn names(args: &Args) -> Vec<String> {
+    if args.scenes.is_empty() { SCENES.map(str::to_owned).into() } else { args.scenes.clone() }
+}
+
+/// Looks at all scenes, as many side by side as there are threads.
+pub(crate) fn all(args: &Args, scenes: &[(String, Scene, Camera)]) -> Result<Vec<Looked>, Failure> {
+    let rows = scenes.iter().map(|(_, _, camera)| ticks(camera.size().height())).sum();
+    let tick = progress::bar("claims", "on the SPU model", rows);
+    let one = |(name, scene, camera): &(String, Scene, Camera)| {
+        let input = Input {
+            name,
+            frame: args.view.frame,
+            scene,
+            camera,
+            plan: Plan::paper(),
+            every: args.sample,
+            unlimited: true,
+        };
+        look(&input, &*tick).map_err(|error| Failure::from(format!("{name}: {error}")))
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(args.view.threads()).build()?;
+    pool.install(|| scenes.par_iter().map(one).collect())
+}
