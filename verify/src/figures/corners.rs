@@ -83,8 +83,11 @@ pub struct Corners {
     pub spanning: u64,
     /// Cells that hold a point of a sphere and do not list it, over all spheres.
     pub missed: u64,
-    /// Of the spheres that are wider than a cell on some axis, or of all if there is none, the one with the most missed cells.
+    /// Of the spheres that are wider than a cell on some axis, or of all if there is none, the one with the most missed cells, and of equals
+    /// with the most needless ones.
     pub large: Ball,
+    /// Whether it is narrower than a cell on every axis, as then all are.
+    pub all_small: bool,
     /// Of those that are narrower than a cell on every axis, the one with the most needless cells.
     pub small: Option<Ball>,
 }
@@ -140,28 +143,27 @@ pub fn of(plan: Plan, scene: &Scene, camera: &Camera) -> Result<Corners, FigureE
         planes.windows(2).map(|pair| f64::from(pair[1]) - f64::from(pair[0])).fold(f64::INFINITY, f64::min)
     });
     let is_small = |ball: &Ball| narrowest.iter().all(|width| 2.0 * f64::from(ball.sphere.radius) < *width);
-    let (mut large, mut small, mut missed) = (None::<(u64, Ball)>, None::<(u64, Ball)>, 0);
+    let (mut large, mut small, mut missed) = (None::<([u64; 2], Ball)>, None::<([u64; 2], Ball)>, 0);
     for id in (0..).take(scene.spheres().len()) {
         let ball = ball(id);
         let misses = ball.count(Cell::is_missed);
         missed += misses;
-        let (best, rank) = match is_small(&ball) {
-            true => (&mut small, ball.count(Cell::is_needless)),
-            false => (&mut large, misses),
-        };
+        let best = if is_small(&ball) { &mut small } else { &mut large };
+        let rank = [misses, ball.count(Cell::is_needless)];
         if best.as_ref().is_none_or(|(most, _)| rank > *most) {
             *best = Some((rank, ball));
         }
     }
     // With lists nothing else can happen to a plan that has a grid.
     let spanning = events.count();
+    let all_small = large.is_none();
     let (large, small) = match (large, small) {
         (Some((_, large)), small) => (large, small.map(|(_, small)| small)),
         (None, Some((_, small))) => (small, None),
         (None, None) => return Err(FigureError::NoGrid),
     };
     let spheres = scene.spheres().len();
-    Ok(Corners { plan, grid: kept, spheres, spanning, missed, large, small })
+    Ok(Corners { plan, grid: kept, spheres, spanning, missed, large, all_small, small })
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -191,11 +193,21 @@ pub fn draw(input: &Input<'_>, found: &Corners) -> Figure {
     );
     let n = found.grid.axes.each_ref().map(|axis| axis.n);
     let small = found.small.as_ref().map_or_else(
-        || " No sphere is narrower than a cell on every axis.".into(),
+        || {
+            let which = if found.all_small { "All spheres are" } else { "No sphere is" };
+            format!(" {which} narrower than a cell on every axis.")
+        },
         |small| format!(" Below it one that is narrower than a cell: {}", sentence(small)),
     );
+    // Only for eight corners is that a broken precondition, and told by the grid.
+    let spanning = match found.plan.voxelizer {
+        Voxelizer::EightCorners => {
+            format!("; {} spheres span more than two cells on an axis", count(found.spanning))
+        }
+        Voxelizer::BoxRange | Voxelizer::Overlap | Voxelizer::ByCenter => String::new(),
+    };
     let caption = format!(
-        "{} spheres in {}x{}x{} cells, {}. {}{small} Over all spheres {} cells hold a point of one and do not list it; {} spheres span more than two cells on an axis.",
+        "{} spheres in {}x{}x{} cells, {}. {}{small} Over all spheres {} cells hold a point of one and do not list it{spanning}.",
         count(found.spheres as u64),
         n[0],
         n[1],
@@ -203,7 +215,6 @@ pub fn draw(input: &Input<'_>, found: &Corners) -> Figure {
         voxelizer(found.plan.voxelizer),
         sentence(&found.large),
         count(found.missed),
-        count(found.spanning),
     );
     Figure { name: "corners", title: title.into(), caption, svg: svg.finish() }
 }

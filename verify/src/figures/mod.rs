@@ -29,7 +29,7 @@ pub struct Input<'a> {
     pub name: &'a str,
     /// The scene.
     pub scene: &'a Scene,
-    /// The camera. Every block is traced on a model: pictures of 320x180 pixels take a second, of 1280x720 some ten.
+    /// The camera. Every block is traced on a model: pictures of 320x180 pixels take a quarter of a second, of 1280x720 two.
     pub camera: &'a Camera,
     /// The plan: packets of 4x4 blocks, one of the two f32 forms.
     pub plan: Plan,

@@ -16,8 +16,8 @@ use optimized::{RenderError, Tracer};
 
 /// How often a stripe is timed; the median counts.
 pub const RUNS: usize = 5;
-/// Shades of the map.
-const SHADES: usize = 9;
+/// Shades of the map, each from its least cycles to so many times these.
+const SHADES: usize = 8;
 
 /// Microseconds that each stripe of four scanlines takes on this computer, at the level asked for, one thread: each is a picture of its own,
 /// timed from the finished grid to the last pixel.
@@ -71,9 +71,14 @@ pub fn draw(input: &Input<'_>, blocks: &[BlockTally], stripes: &[f64], chosen: [
     let room = WIDTH - LEFT - 40.0 - bars;
     svg.words("head", "start", [bars, 14.0], "µs of each stripe, here");
 
-    let most = blocks.iter().map(cycles).max().unwrap_or(0);
-    let step = nice(most as f64 / SHADES as f64);
-    let shade = |block: &BlockTally| ((cycles(block) as f64 / step) as usize).min(SHADES - 1);
+    let [least, most] =
+        [blocks.iter().map(cycles).min(), blocks.iter().map(cycles).max()].map(Option::unwrap_or_default);
+    // Blocks cost from once to a hundred times the least: steps that are equal on a logarithmic scale show both ends.
+    let step = (most as f64 / (least as f64).max(1.0)).powf(1.0 / SHADES as f64).max(1.0 + 1e-9);
+    let edge = |shade: usize| (least as f64).max(1.0) * step.powi(i32::try_from(shade).unwrap_or(0));
+    let shade = |block: &BlockTally| {
+        (1..SHADES).find(|shade| (cycles(block) as f64) < edge(*shade)).unwrap_or(SHADES) - 1
+    };
     svg.raw(&format!("<g transform=\"translate({left:.2} {top:.2}) scale({side:.4})\">"));
     let per_row = columns as usize;
     for of in 0..SHADES {
@@ -89,7 +94,7 @@ pub fn draw(input: &Input<'_>, blocks: &[BlockTally], stripes: &[f64], chosen: [
             }
         }
         if !path.is_empty() {
-            svg.raw(&format!("<path class=\"heat h{of}\" d=\"{path}\"/>"));
+            svg.raw(&format!("<path class=\"heat h{}\" d=\"{path}\"/>", of + 1));
         }
     }
     svg.raw("</g>");
@@ -118,29 +123,27 @@ pub fn draw(input: &Input<'_>, blocks: &[BlockTally], stripes: &[f64], chosen: [
     }
 
     let foot = top + height + 18.0;
-    let used = ((most as f64 / step) as usize + 1).min(SHADES);
-    let swatch = (width / used as f64).min(52.0);
-    for of in 0..used {
-        svg.rect(&format!("heat h{of}"), [left + swatch * of as f64, foot], [swatch, 12.0]);
+    let swatch = 52.0;
+    for of in 0..SHADES {
+        let place = [left + swatch * of as f64, foot];
+        svg.rect(&format!("heat h{}", of + 1), place, [swatch, 12.0]);
+        svg.words("faint", "middle", [place[0], foot + 26.0], &thousands(edge(of)));
     }
-    svg.rect("border", [left, foot], [swatch * used as f64, 12.0]);
-    for edge in (0..=used).step_by(if swatch < 40.0 { 2 } else { 1 }) {
-        svg.words(
-            "faint",
-            "middle",
-            [left + swatch * edge as f64, foot + 26.0],
-            &thousands(step * edge as f64),
-        );
-    }
-    svg.words("", "start", [bars, foot + 10.0], "cycles of a block");
-    svg.words("faint", "start", [bars, foot + 26.0], "ringed: the other figures' block");
+    let end = left + swatch * SHADES as f64;
+    svg.rect("border", [left, foot], [end - left, 12.0]);
+    svg.words("faint", "middle", [end, foot + 26.0], &thousands(most as f64));
+    svg.words("", "start", [end + 34.0, foot + 10.0], "cycles of a block");
+    svg.words("faint", "start", [end + 34.0, foot + 26.0], "ringed: the other figures' block");
 
     let sum: u64 = blocks.iter().map(cycles).sum();
-    let least = blocks.iter().map(cycles).min().unwrap_or(0);
     let dearest = blocks.iter().max_by_key(|block| cycles(block)).map_or([0, 0], |block| block.at);
     let shortest = stripes.iter().copied().fold(f64::INFINITY, f64::min);
+    let split = match blocks.iter().filter(|block| block.counts.split_blocks > 0).count() {
+        0 => String::new(),
+        n => format!(" The rays of {} blocks have no common major axis and go one by one.", count(n as u64)),
+    };
     let caption = format!(
-        "{}: {} blocks of 4x4 pixels in {} stripes of four scanlines. On the SPU model, hinted and in the order as written, a block costs {} to {} cycles, {} in the mean; the dearest is at pixel ({}, {}). On this computer, {}, one thread, a stripe takes {} to {} µs, the median of {RUNS} runs, without building the grid.",
+        "{}: {} blocks of 4x4 pixels in {} stripes of four scanlines. On the SPU model, hinted and in the order as written, a block costs {} to {} cycles, {} in the mean; the dearest is at pixel ({}, {}).{split} On this computer, {}, one thread, a stripe takes {} to {} µs, the median of {RUNS} runs, without building the grid.",
         input.name,
         count(blocks.len() as u64),
         count(stripes.len() as u64),
@@ -170,7 +173,10 @@ fn ticks(most: f64, about: f64) -> Vec<f64> {
     all.take_while(|mark| *mark <= most * (1.0 + 1e-9)).collect()
 }
 
-/// A number of cycles: 20 k.
+/// A number of cycles in two digits: 3.2 k, 20 k.
 fn thousands(cycles: f64) -> String {
-    if cycles >= 1000.0 { format!("{} k", cycles / 1000.0) } else { format!("{cycles}") }
+    match cycles / 1000.0 {
+        thousands if thousands >= 10.0 => format!("{thousands:.0} k"),
+        thousands => format!("{thousands:.1} k"),
+    }
 }
