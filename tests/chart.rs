@@ -4,6 +4,7 @@ use contract::Size;
 use optimized::{Level, Plan};
 use reference::{Arithmetic, Tracer};
 use verify::ablation::ablate;
+use verify::ablation::model::{Without, model, steps};
 use verify::chart::{Asked, Chart, Distance, SCHEMA_VERSION, View, measure};
 use verify::judge::compare::compare;
 use verify::methods::{Family, Method, charted};
@@ -11,6 +12,7 @@ use verify::report::Environment;
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::{Framing, in_view};
 use verify::scenes::read::Loaded;
+use verify::spu::feature::Feature;
 use verify::spu::predict::Policy;
 use verify::spu::survey::{Input, survey};
 
@@ -202,4 +204,36 @@ fn cycles_are_those_of_the_survey() {
     for (found, expected) in found.into_iter().zip(expected) {
         assert!((found / expected - 1.0).abs() < 1e-9, "{found} cycles a ray, the survey has {expected}");
     }
+}
+
+/// Without a cost a frame is faster, without the second pipe slower, and none of it is left behind.
+#[test]
+fn the_model_is_told_without_each_feature() {
+    let (loaded, plan) = (loaded(), Plan::paper());
+    let (scene, far) = (&loaded.animation.frames()[0], at(&loaded, 1.0));
+    let input =
+        Input { name: "sixty", frame: 0, scene, camera: &far.camera, plan, every: 1, unlimited: true };
+    let ticks = std::cell::Cell::new(0);
+    let rows = model(&[input], 1, &|| ticks.set(ticks.get() + 1)).expect("the model has such packets");
+    assert_eq!((ticks.get(), rows.len()), (steps(1), 1 + Feature::ALL.len()));
+    let rate = |row: &Without| row.frames_per_second[0].1;
+    let whole = rate(&rows[0]);
+    assert!(rows[0].feature.is_none() && rows[0].changed.is_empty());
+    for row in &rows[1..] {
+        let (feature, [least, most]) = (row.feature.expect("all but the first"), rate(row));
+        match feature {
+            Feature::DualIssue => {
+                assert!(most < whole[1], "{feature:?}: {most} frames a second, whole {whole:?}")
+            }
+            Feature::Latencies => {
+                assert!(least > whole[0] && most.to_bits() == whole[1].to_bits(), "{feature:?}")
+            }
+            _ => assert!(
+                least > whole[0] && most >= whole[1],
+                "{feature:?}: {least} to {most}, whole {whole:?}"
+            ),
+        }
+    }
+    let again = survey(&input, &|| ()).expect("as before").rates[Policy::Hinted as usize].frames_per_second;
+    assert_eq!(again.map(f64::to_bits), whole.map(f64::to_bits), "a feature stays left out");
 }

@@ -1,6 +1,7 @@
 //! What was found, as plain data: the one source of the page, the JSON file and the CSV file. A changed field means a new
 //! [`SCHEMA_VERSION`].
 
+use super::model::Without;
 use crate::report::Environment;
 use serde::Serialize;
 
@@ -18,6 +19,8 @@ pub struct Ablation {
     pub environment: Environment,
     /// Scene by scene.
     pub scenes: Vec<SceneAblation>,
+    /// The model of the paper's machine, whole, and without each of its features.
+    pub model: Vec<Without>,
 }
 
 /// Of a scene.

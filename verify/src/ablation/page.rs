@@ -2,6 +2,7 @@
 
 use super::data::{Ablation, Row};
 use crate::report::words::{NONE, count, figure};
+use crate::spu::feature::Feature;
 use askama::Template;
 
 #[derive(Template)]
@@ -10,6 +11,14 @@ struct Part {
     scenes: Vec<String>,
     chosen: Vec<String>,
     bases: Vec<Base>,
+    model: Vec<Model>,
+}
+
+/// The model without a feature.
+struct Model {
+    name: &'static str,
+    rates: Vec<String>,
+    changed: Vec<String>,
 }
 
 /// A base over all scenes.
@@ -66,7 +75,21 @@ pub fn part(ablation: &Ablation) -> Result<String, askama::Error> {
             scene.reasons.join("; ")
         ))
     });
+    let model = ablation.model.iter().map(|row| Model {
+        name: row.feature.map_or("nothing", Feature::words),
+        rates: row
+            .frames_per_second
+            .iter()
+            .map(|(_, [a, b])| format!("{}–{}", figure(*a), figure(*b)))
+            .collect(),
+        changed: row
+            .changed
+            .iter()
+            .map(|(claim, before, after)| format!("{claim}: {} becomes {}", before.word(), after.word()))
+            .collect(),
+    });
     Part {
+        model: model.collect(),
         scenes: scenes.iter().map(|scene| scene.scene.clone()).collect(),
         chosen: chosen.collect(),
         bases: bases.collect(),

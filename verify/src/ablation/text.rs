@@ -2,6 +2,7 @@
 
 use super::data::Ablation;
 use crate::report::words::{NONE, count, figure};
+use crate::spu::feature::Feature;
 use std::fmt::Write;
 
 /// The table.
@@ -48,6 +49,17 @@ pub fn text(ablation: &Ablation) -> String {
             }
         }
         text += "\n";
+    }
+    for row in &ablation.model {
+        let name = row.feature.map_or("the whole model of the paper's machine", Feature::words);
+        let rates = row.frames_per_second.iter();
+        let rates: Vec<_> =
+            rates.map(|(scene, [a, b])| format!("{scene} {}-{}", figure(*a), figure(*b))).collect();
+        let without = if row.feature.is_some() { "without " } else { "" };
+        _ = writeln!(text, "{without}{name}: frames a second {}", rates.join(", "));
+        for (claim, before, after) in &row.changed {
+            _ = writeln!(text, "    {claim}: {} becomes {}", before.word(), after.word());
+        }
     }
     text
 }

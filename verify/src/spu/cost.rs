@@ -5,6 +5,7 @@
 //! dependence bound with all six at the memory at once, and nothing hidden where there is one.
 
 use super::dma::{Transfer, TransferError};
+use super::feature::{Feature, has};
 use super::model::Measured;
 use super::predict::Policy;
 use super::recorder::Booked;
@@ -60,11 +61,14 @@ pub fn frame_cost(
     policy: Policy,
     buffers: Buffers,
 ) -> Result<FrameCost, TransferError> {
-    let voxelize = bracket(&measured.voxelize.total(), policy);
-    let scene = transfer(SPHERE * spheres as u64)?;
+    let free = [0.0; 2];
+    let built = bracket(&measured.voxelize.total(), policy);
+    let voxelize = if has(Feature::Building) { built } else { free };
+    let moved = |bytes| if has(Feature::Transfers) { transfer(bytes) } else { Ok(free) };
+    let scene = moved(SPHERE * spheres as u64)?;
     let width = u64::from(measured.image.size.width());
     // The last quadword of a row that is no multiple of one is moved whole.
-    let stripe = transfer((PIXEL * u64::from(BLOCK) * width).next_multiple_of(super::dma::ALIGNMENT))?;
+    let stripe = moved((PIXEL * u64::from(BLOCK) * width).next_multiple_of(super::dma::ALIGNMENT))?;
     let mut cycles = [0.0; 2];
     for (bound, cycles) in cycles.iter_mut().enumerate() {
         let stripes = measured.stripes.iter().map(|s| {

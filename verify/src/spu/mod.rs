@@ -6,7 +6,7 @@
 //! The modules in the order in which a run goes through them: the instructions ([`isa`]), what each operation is in instructions
 //! ([`sequence`]), the two clocks ([`pipeline`]), branches ([`predict`]), where all is booked ([`recorder`]), the
 //! [`Machine`](optimized::machine::Machine) that books ([`machine`]), memory ([`store`], [`dma`]), a frame ([`model`](mod@model)), and what it costs
-//! over six SPUs ([`cost`]), and all that is to be said of a scene ([`survey`](mod@survey));
+//! over six SPUs ([`cost`]), what of all this a conclusion rests on ([`feature`]), and all that is to be said of a scene ([`survey`](mod@survey));
 //! [`crate::paper`] holds the paper's claims against it. [`host`] has the same loops on this computer;
 //! [`text`](mod@text), [`page`](mod@page) with its [`curves`](mod@curves), and [`data`] show it all.
 //!
@@ -29,6 +29,7 @@ pub mod cost;
 pub mod curves;
 pub mod data;
 pub mod dma;
+pub mod feature;
 pub mod host;
 pub mod isa;
 pub mod machine;

@@ -3,6 +3,7 @@
 //! The recorder belongs to the thread, since a machine is a value that is copied into every kernel and has no room for one.
 //! [`record`] starts one, runs some work and gives what was booked; runs do not nest.
 
+use super::feature::{Feature, has};
 use super::isa::{Op, Pipe};
 use super::pipeline::Pipeline;
 use super::predict::{Branches, MISPREDICT, Policy, Predictor, SITES};
@@ -38,15 +39,28 @@ impl Booked {
     /// Cycles that no schedule can be below.
     #[must_use]
     pub fn issue_bound(&self, policy: Policy) -> u64 {
-        let i = policy as usize;
-        self.even.max(self.odd + self.hints[i]) + MISPREDICT * self.mispredicts[i]
+        let odd = self.odd + self.hinting(policy);
+        let issued = if has(Feature::DualIssue) { self.even.max(odd) } else { self.even + odd };
+        issued + self.astray(policy)
     }
 
     /// Cycles in the order as written.
     #[must_use]
     pub fn dependence_bound(&self, policy: Policy) -> u64 {
-        let i = policy as usize;
-        self.in_order + self.hints[i] + MISPREDICT * self.mispredicts[i]
+        if !has(Feature::Latencies) || !has(Feature::DualIssue) {
+            return self.issue_bound(policy);
+        }
+        self.in_order + self.hinting(policy) + self.astray(policy)
+    }
+
+    /// Cycles for setting hints.
+    fn hinting(&self, policy: Policy) -> u64 {
+        if has(Feature::Hints) { self.hints[policy as usize] } else { 0 }
+    }
+
+    /// Cycles for mispredicts.
+    fn astray(&self, policy: Policy) -> u64 {
+        if has(Feature::Mispredicts) { MISPREDICT * self.mispredicts[policy as usize] } else { 0 }
     }
 
     /// Both: least and most.

@@ -5,14 +5,17 @@ use super::verify::warn;
 use crate::args::Ablate as Args;
 use crate::environment::environment;
 use crate::{Failure, progress, say};
-use contract::Size;
-use optimized::Level;
+use contract::{Camera, Scene, Size};
+use optimized::{Level, Plan};
 use std::process::ExitCode;
+use verify::ablation::model::{Without, model, steps};
 use verify::ablation::{Ablation, SCHEMA_VERSION, ablate, page, text};
 use verify::chart::Distance;
 use verify::picture::{check_folder, write_atomically};
 use verify::scenes::catalogue::Source;
+use verify::scenes::frame::Framing;
 use verify::seed::seed;
+use verify::spu::survey::Input;
 
 /// Scenes that are measured where none is named.
 const SCENES: [&str; 3] = ["1hvr", "sphereflake:3", "uniform:2000:1"];
@@ -36,7 +39,7 @@ pub(crate) fn found(args: &Args) -> Result<Ablation, Failure> {
     let level = args.level.as_deref().map_or_else(Level::best, Level::named)?;
     let (threads, seed) = (args.view.threads(), seed());
     let names = if args.scenes.is_empty() { SCENES.map(str::to_owned).to_vec() } else { args.scenes.clone() };
-    let mut scenes = Vec::new();
+    let (mut scenes, mut looked) = (Vec::new(), Vec::new());
     for word in &names {
         let loaded = Source::parse(word)?.load()?;
         warn(&loaded);
@@ -46,13 +49,33 @@ pub(crate) fn found(args: &Args) -> Result<Ablation, Failure> {
         if framing.size.is_none() {
             framing.size = Some(Size::new(SIZE[0], SIZE[1])?);
         }
+        // The paper's claims are of its own size.
+        let own = Framing { size: args.view.size, ..framing };
+        looked.push((word.clone(), scene.clone(), own.camera(&loaded.animation)?));
         let at = Distance::new(&loaded.animation, &framing, 1.0)?;
         let how = (level, threads, args.rounds.into(), args.sample);
         scenes.push(ablate((word, frame, scene), &at, how, seed, &|what, steps| {
             progress::bar(word, what, steps)
         })?);
     }
+    let model = modelled(&looked, args.sample, seed)?;
     let mut environment = environment(threads, &[level]);
     environment.seed = Some(seed);
-    Ok(Ablation { schema_version: SCHEMA_VERSION, kind: "ablation", environment, scenes })
+    Ok(Ablation { schema_version: SCHEMA_VERSION, kind: "ablation", environment, scenes, model })
+}
+
+/// The model of the paper's machine without each of its features, on these scenes.
+fn modelled(scenes: &[(String, Scene, Camera)], every: u32, seed: u64) -> Result<Vec<Without>, Failure> {
+    let inputs = scenes.iter().map(|(name, scene, camera)| Input {
+        name,
+        frame: 0,
+        scene,
+        camera,
+        plan: Plan::paper(),
+        every,
+        unlimited: true,
+    });
+    let inputs: Vec<Input<'_>> = inputs.collect();
+    let tick = progress::bar("model", "without each feature", steps(inputs.len()));
+    Ok(model(&inputs, seed, &*tick)?)
 }
