@@ -114,7 +114,7 @@ fn commands_work_and_pictures_come_out_again() {
             "{line} ({why}) is exempt and does not occur"
         );
         let script = line.split(' ').next().unwrap_or_default();
-        assert!(executable(&root().join(script)), "{line} cannot be run");
+        assert!(script == "cargo" || executable(&root().join(script)), "{line} cannot be run");
     }
     let mut pictures = drawn(&root().join("docs"));
     assert!(!pictures.is_empty(), "README has pictures");
