@@ -112,7 +112,7 @@ def main(script):
         def judged(explanations):
             out = io.StringIO()
             with contextlib.redirect_stdout(out):
-                code = script.judge(root, mutants, mutants, scratch, options, 1, explanations, [("plain", lambda _: True, script.plain)])
+                code = script.judge(root, mutants, mutants, scratch, options, 1, explanations, [(lambda _: True, script.plain)])
             return code, out.getvalue()
 
         killed = next(name for name, becomes in expected.items() if becomes == CHECK)
