@@ -303,7 +303,9 @@ fn grids_for_tiles_are_as_stated() {
         let count = rng.random_range(1..4_000);
         let mut spheres = scattered(&mut rng, count, extent);
         if case % 5 == 0 {
+            // All of one power of two, but for a few.
             spheres.iter_mut().for_each(|sphere| sphere.radius = 0.25);
+            spheres.iter_mut().take(case % 4).for_each(|sphere| sphere.radius = 3.0);
         } else {
             // Now fewer than make spheres large, now more.
             let some = count / 128 * (case % 3) + 16;
