@@ -282,15 +282,18 @@ fn frames_of_one_size_follow_each_other() {
     );
 }
 
-/// A frame that leaves something in one column of blocks alone, the first, the last or one between, and then an empty one: nothing stays.
+/// A frame that leaves something in one column of blocks alone, the first, the last or one between, and then one that shows nothing, though
+/// there is a sphere behind the eye: nothing stays.
 #[test]
 fn what_one_column_of_blocks_shows_is_cleared() {
     let (width, height) = (23u16, 9u16);
     let size = Size::new(width.into(), height.into()).expect("a size");
     let corner = [-f32::from(width) / 2.0, f32::from(height) / 2.0, -20.0];
     let camera = Camera::new([0.0; 3], corner, [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], size).expect("a camera");
-    let empty = Scene::new(Vec::new(), [3; 3], DEFAULT_LIGHT).expect("valid");
+    let behind = Sphere { center: [0.0, 0.0, 20.0], radius: 0.4, color: [200; 3] };
+    let empty = Scene::new(vec![behind], [3; 3], DEFAULT_LIGHT).expect("valid");
     let truth = exact(&empty, &camera);
+    assert!(truth.ids.iter().all(|id| *id == MISS));
     for x in 0..width {
         let ball =
             Sphere { center: [f32::from(x) + 0.5 + corner[0], 0.0, -20.0], radius: 0.4, color: [200; 3] };
