@@ -1,5 +1,5 @@
-//! Does each seeded fault still apply, and does the script that plants them tell its verdicts apart? Whether the faults are killed is what
-//! `tests/faults/run` itself finds out, which takes longer than a test may.
+//! Does each seeded fault still apply, and do the scripts that plant faults and mutants tell their verdicts apart? Whether they are killed is what
+//! `tests/faults/run` and `tests/faults/mutants` find out, which takes longer than a test may.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -24,8 +24,12 @@ fn python() -> Option<PathBuf> {
 }
 
 fn script(words: &[&str]) -> Option<Output> {
+    started("tests/faults/run", words)
+}
+
+fn started(name: &str, words: &[&str]) -> Option<Output> {
     let mut command = Command::new(python()?);
-    Some(command.arg(root().join("tests/faults/run")).args(words).output().expect("it starts"))
+    Some(command.arg(root().join(name)).args(words).output().expect("it starts"))
 }
 
 /// What a run said, which must end with a code.
@@ -151,4 +155,22 @@ fn every_verdict_is_recognised() {
     let Some(output) = script(&["--self-test"]) else { return };
     let said = said(&output, JUDGED);
     assert!(said.contains("22 verdicts, 0 wrong"), "{said}");
+}
+
+/// In the same project, mutants that are killed by a check, by a panic or by a time-out, that do not compile, that survive, and that no test
+/// comes to are told apart, and explanations that are lacking, wrong or stale are named.
+#[test]
+fn every_end_of_a_mutant_is_recognised() {
+    let Some(output) = started("tests/faults/mutants", &["--self-test"]) else { return };
+    let said = said(&output, JUDGED);
+    assert!(said.contains("18 mutants, 0 wrong"), "{said}");
+}
+
+/// Each explanation of a mutant that survives has a file, and a mutant if there is cargo-mutants to list it.
+#[test]
+fn every_explanation_has_its_mutant() {
+    let Some(output) = started("tests/faults/mutants", &["--check"]) else { return };
+    let said = said(&output, JUDGED);
+    eprint!("{said}");
+    assert!(said.contains(" explained, 0 of which are no mutants"), "{said}");
 }

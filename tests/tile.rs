@@ -282,6 +282,37 @@ fn frames_of_one_size_follow_each_other() {
     );
 }
 
+/// A frame that leaves something in one column of blocks alone, the first, the last or one between, and then one that shows nothing, though
+/// there is a sphere behind the eye: nothing stays.
+#[test]
+fn what_one_column_of_blocks_shows_is_cleared() {
+    let (width, height) = (23u16, 9u16);
+    let size = Size::new(width.into(), height.into()).expect("a size");
+    let corner = [-f32::from(width) / 2.0, f32::from(height) / 2.0, -20.0];
+    let camera = Camera::new([0.0; 3], corner, [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], size).expect("a camera");
+    let behind = Sphere { center: [0.0, 0.0, 20.0], radius: 0.4, color: [200; 3] };
+    let empty = Scene::new(vec![behind], [3; 3], DEFAULT_LIGHT).expect("valid");
+    let truth = exact(&empty, &camera);
+    assert!(truth.ids.iter().all(|id| *id == MISS));
+    for x in 0..width {
+        let ball =
+            Sphere { center: [f32::from(x) + 0.5 + corner[0], 0.0, -20.0], radius: 0.4, color: [200; 3] };
+        let scene = Scene::new(vec![ball], [3; 3], DEFAULT_LIGHT).expect("valid");
+        for side in [1, 2, 8] {
+            let plan = Plan { packet: Packet::Tile { side }, ..Plan::fast() };
+            let tracer = Tracer::new(plan, Level::best().expect("a level"));
+            let mut session = tracer.session().expect("memory");
+            let shown = session.render(&scene, &camera).expect("nothing to refuse");
+            let columns: Vec<usize> = (0..size.width() as usize)
+                .filter(|x| shown.image.ids.iter().skip(*x).step_by(width.into()).any(|id| *id != MISS))
+                .collect();
+            assert_eq!(columns, [usize::from(x)], "more than one column is seen, or none");
+            let given = session.render(&empty, &camera).expect("nothing to refuse");
+            assert_equal(&truth, &given.image, &|| format!("after a sphere in column {x}; {plan}"));
+        }
+    }
+}
+
 /// Many small spheres in one tile and in many slices, so that candidates come in several rounds, and hardly one hides another: whichever
 /// were left out would be seen.
 #[test]

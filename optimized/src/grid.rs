@@ -455,13 +455,14 @@ fn survey<M: Machine>(m: M, spheres: &[Sphere]) -> ([[f32; 3]; 2], f32) {
     let of_exponent: [usize; 256] = std::array::from_fn(|i| of_exponents.iter().map(|of| of[i]).sum());
     let (mut large, mut from) = (0, f32::INFINITY);
     for (exponent, count) in (0..256u32).zip(of_exponent).rev() {
-        large += count;
-        if large > spheres.len() / 64 + 32 {
+        // Not to be counted before it is asked: the rest may be all of one exponent, and those before it large nevertheless.
+        if large + count > spheres.len() / 64 + 32 {
             break;
         }
+        large += count;
         from = f32::from_bits(exponent << 23);
     }
-    // Where all are alike, none is large.
+    // Where all would be large, none is.
     let mut whole = [[0.0; 3]; 2];
     for i in 0..3 {
         (whole[0][i], whole[1][i]) = (m.to_array(m.smallest(lo[i]))[0], m.to_array(m.largest(hi[i]))[0]);

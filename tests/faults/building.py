@@ -54,30 +54,38 @@ def files(root):
 
 
 class Build:
-    """What a run of cargo gave: test programs by name, and the errors with their places."""
+    """What a run of cargo gave: test programs by name, and the errors with their places: lines, or lines and columns."""
 
     def __init__(self):
-        self.programs, self.helpers, self.errors = {}, [], []
+        self.programs, self.helpers, self.errors, self.spans = {}, [], [], []
 
 
-def build(folder, target, binaries, packages, offline, before=(), features=(), environment=None, limit=BUILD_LIMIT):
+# How test programs are built: what is their own as fast as it compiles, what they use as fast as it runs.
+BUILD = ("--config", "profile.dev.opt-level=1", "--config", "profile.dev.debug=false", "--config", 'profile.dev.package."*".opt-level=3')
+
+
+def build(folder, target, binaries, packages, offline, before=(), features=(), environment=None, limit=BUILD_LIMIT, settings=BUILD):
     """Test programs of some binaries of some packages; `before`: words before cargo's.
 
     Raises CannotBuild if cargo fails without an error in a file, and subprocess.TimeoutExpired.
     """
-    command = [*before, "cargo", "test", "--no-run", "--message-format=json"]
+    words = [*before, "cargo", "test", "--no-run", *settings]
+    for feature in features:
+        words += ["--features", feature]
+    for package in sorted(packages):
+        words += ["--package", package]
+    for name in sorted(binaries):
+        words += ["--test", name]
+    return cargo(words, folder, target, offline, environment, limit)
+
+
+def cargo(words, folder, target, offline, environment=None, limit=BUILD_LIMIT):
+    """What those words to cargo make; raises as `build`."""
+    command = [*words, "--message-format=json"]
     if (folder / "Cargo.lock").is_file():
         command.append("--locked")
     if offline:
         command.append("--offline")
-    command += ["--config", "profile.dev.opt-level=1", "--config", "profile.dev.debug=false",
-                "--config", 'profile.dev.package."*".opt-level=3']
-    for feature in features:
-        command += ["--features", feature]
-    for package in sorted(packages):
-        command += ["--package", package]
-    for name in sorted(binaries):
-        command += ["--test", name]
     environment = dict(environment or os.environ, CARGO_TARGET_DIR=str(target), CARGO_TERM_COLOR="never")
     done = subprocess.run(command, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                           timeout=limit)
@@ -90,14 +98,14 @@ def build(folder, target, binaries, packages, offline, before=(), features=(), e
             else:
                 made.helpers.append(Path(message["executable"]))
         elif message.get("reason") == "compiler-message" and message["message"]["level"] == "error":
-            spans = message["message"]["spans"]
-            places = [(span["file_name"], span["line_start"]) for span in spans]
+            spans = list(message["message"]["spans"])
             # What a macro makes stands where the macro is called.
-            for span in spans:
+            for span in message["message"]["spans"]:
                 while span.get("expansion"):
                     span = span["expansion"]["span"]
-                    places.append((span["file_name"], span["line_start"]))
-            made.errors.append((message["message"]["message"], places))
+                    spans.append(span)
+            made.errors.append((message["message"]["message"], [(span["file_name"], span["line_start"]) for span in spans]))
+            made.spans.append([(span["file_name"], (span["line_start"], span["column_start"]), span["is_primary"]) for span in spans])
     if done.returncode != 0 and not made.errors:
         raise CannotBuild("\n".join(done.stderr.strip().splitlines()[-15:]))
     return made

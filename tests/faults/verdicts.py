@@ -34,11 +34,11 @@ class Ran:
         return found is not None and found.group(1) == "1"
 
 
-def run(program, test, folder, environment, limit):
-    """Runs one test of a program in a folder; the code is None if it was not done in time."""
+def run(program, test, folder, environment, limit, before=()):
+    """Runs one test of a program in a folder; the code is None if it was not done in time. `before`: words before the program's."""
     start = time.monotonic()
     with tempfile.TemporaryFile() as out:
-        child = subprocess.Popen([program, "--exact", test, "--nocapture"], cwd=folder, env=environment,
+        child = subprocess.Popen([*before, program, "--exact", test, "--nocapture"], cwd=folder, env=environment,
                                  stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, start_new_session=True)
         try:
             code = child.wait(limit)

@@ -1,0 +1,738 @@
+//! Is each number that the tracer states, and that no picture need show, the one it states? Margins may not be smaller than derived, which other
+//! tests find out, and not larger either; ranges begin and end where they say; cells are as many as chosen; and counts count.
+
+use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
+use optimized::bound::{NEAREST, Rule, TRUNCATING};
+use optimized::crew::Crew;
+use optimized::grid::{Bounds, Grid, Memory, widen};
+use optimized::host::Scalar;
+use optimized::machine::LANES;
+use optimized::margin::{in_range, reach, sphere_in_range};
+use optimized::plan::{
+    Arithmetic, Cells, Culling, Loop, Margins, OnEvent, Packet, Plan, Resolution, Sharing, Voxelizer,
+};
+use optimized::seen::Counts;
+use optimized::{Events, Form, Known, Level, Tracer, cull, double, frustum, tile};
+use rand::{Rng, RngExt};
+use std::collections::BTreeSet;
+use std::path::Path;
+use verify::case::Case;
+use verify::seed::{generator, seed};
+
+/// A number between two powers of two, all of these alike.
+fn power(rng: &mut impl Rng, from: f64, to: f64) -> f64 {
+    2f64.powf(rng.random_range(from..to))
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "any f32 will do")]
+fn vector(rng: &mut impl Rng, size: f64) -> [f32; 3] {
+    std::array::from_fn(|_| (size * rng.random_range(-1.0..1.0)) as f32)
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    v[0].hypot(v[1]).hypot(v[2])
+}
+
+/// What is stated must be reached, and not be passed by more than its own roundings in f32, so many units of 2⁻²⁴.
+fn assert_stated(stated: f64, given: f32, units: f64, what: &dyn Fn() -> String) {
+    let given = f64::from(given);
+    let (least, most) = (stated * (1.0 - 1e-12), stated * (1.0 + units * NEAREST));
+    assert!((least..=most).contains(&given), "{given:e}, not {stated:e}; {}", what());
+}
+
+/// Reach, culling radius and widening of spheres from far and near.
+#[test]
+fn margins_of_spheres_are_those_derived() {
+    let seed = seed();
+    let mut rng = generator(seed, 0);
+    let u = NEAREST;
+    for case in 0..20_000 {
+        let size = power(&mut rng, -3.0, 12.0);
+        let (f, r) = (vector(&mut rng, size), power(&mut rng, -2.0, 2.0) as f32);
+        let (far, wide) = (length(f.map(f64::from)), f64::from(r));
+        let what = || format!("case {case} of CGT_SEED={seed}: {f:?}, {r:e}");
+        for (arithmetic, units) in [
+            (Arithmetic::Rounded as fn(Form) -> Arithmetic, 64.0 * u),
+            (Arithmetic::Spu as fn(Form) -> Arithmetic, 256.0 * u),
+        ] {
+            let given = |form| reach(Margins::Derived, arithmetic(form), f, r);
+            assert_stated(wide + units * (far + wide), given(Form::Perpendicular), 4.0, &what);
+            // R² = r² + 64u (F + r)², by the length of a vector.
+            let textbook = wide.hypot(units.sqrt() * (far + wide));
+            assert_stated(textbook, given(Form::Textbook), 4.0, &what);
+            for form in [Form::Perpendicular, Form::Textbook] {
+                assert_eq!(reach(Margins::None, arithmetic(form), f, r).to_bits(), r.to_bits());
+            }
+        }
+        assert_eq!(reach(Margins::Derived, Arithmetic::Certified, f, r).to_bits(), r.to_bits());
+
+        let sum: f64 = f.iter().map(|x| f64::from(x.abs())).sum();
+        let unit = u as f32;
+        let culled = wide + 16.0 * u * (sum + wide);
+        assert_stated(culled, cull::radius(unit, Margins::Derived, f, r), 4.0, &what);
+        assert_eq!(cull::radius(unit, Margins::None, f, r).to_bits(), r.to_bits());
+        let lanes = cull::radii(Scalar, f.map(|x| [x.abs(); LANES]), [r; LANES]);
+        assert_stated((wide + 32.0 * u * (sum + wide)) * (1.0 - 4.0 * u), lanes[0], 8.0, &what);
+        assert_stated(wide * (1.0 + 16.0 * u) * (1.0 - u), widen(unit, r), 2.0, &what);
+        let at = f64::from(f[0].abs());
+        assert_stated(16.0 * u * (at + wide) * (1.0 - 2.0 * u), frustum::pad(unit, f[0], r), 4.0, &what);
+        assert_stated(1.0 + 16.0 * u, frustum::beyond(unit), 0.0, &what);
+    }
+    eprintln!("CGT_SEED={seed}: 20000 spheres");
+}
+
+/// A camera with spans in any direction.
+fn camera(rng: &mut impl Rng, size: f64) -> Option<Camera> {
+    let pixels = Size::new(rng.random_range(1..50), rng.random_range(1..50)).expect("small");
+    let (c, u, v) = (vector(rng, size), vector(rng, size / 20.0), vector(rng, size / 20.0));
+    Camera::new([0.5; 3], c, u, v, pixels).ok()
+}
+
+fn dot(u: [f64; 3], v: [f64; 3]) -> f64 {
+    u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+}
+
+/// What is left of v without its part along u.
+fn across(v: [f64; 3], u: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|i| v[i] - dot(v, u) / dot(u, u) * u[i])
+}
+
+/// The longest direction that a camera may have, and the distance of its picture's plane from the eye, in units of pixels as given.
+fn lengths(camera: &Camera) -> [f64; 2] {
+    let [c, u, v] = [camera.corner(), camera.du(), camera.dv()].map(|v| v.map(f64::from));
+    let [w, h] = [camera.size().width(), camera.size().height()].map(f64::from);
+    let longest = length(c) + w * length(u) + h * length(v);
+    [longest, length(across(across(c, u), across(v, u)))]
+}
+
+/// A camera is in range if its directions are from 2⁻²⁰ to 2²⁰ long, with 1 % to spare: just within at either end, and just beyond.
+#[test]
+fn cameras_are_in_range_where_it_says() {
+    let seed = seed();
+    let mut rng = generator(seed, 1);
+    let (million, mut judged) = (2f64.powi(20), [0u64; 4]);
+    let is_in = |camera: &Camera| in_range(Arithmetic::Certified, &[], camera);
+    for case in 0..40_000 {
+        let Some(plain) = camera(&mut rng, 1.0) else { continue };
+        let [longest, shortest] = lengths(&plain);
+        for (at, scale, within) in [
+            (0, 0.999 * million / (1.01 * longest), true),
+            (1, 1.001 * million / (1.01 * longest), false),
+            (2, 1.001 / million / (0.99 * shortest - 1e-5 * longest), true),
+            (3, 0.999 / million / (0.99 * shortest - 1e-5 * longest), false),
+        ] {
+            // What limits it must be that end alone, and no rounding of it.
+            let spare = [0.98 * shortest * scale * million, million / (1.02 * longest * scale)][at / 2];
+            if scale <= 0.0 || spare < 1.0 || shortest < 0.02 * longest {
+                continue;
+            }
+            #[allow(clippy::cast_possible_truncation, reason = "any f32 will do")]
+            let scaled = |v: [f32; 3]| v.map(|x| (f64::from(x) * scale) as f32);
+            let given = Camera::new(
+                plain.eye(),
+                scaled(plain.corner()),
+                scaled(plain.du()),
+                scaled(plain.dv()),
+                plain.size(),
+            );
+            let Ok(given) = given else { continue };
+            assert_eq!(is_in(&given), within, "{at}, case {case} of CGT_SEED={seed}: {given:?}");
+            judged[at] += 1;
+        }
+    }
+    eprintln!("CGT_SEED={seed}: {judged:?} cameras just within and just beyond");
+    assert!(judged.iter().all(|n| *n > 5_000), "too few: {judged:?}");
+}
+
+/// Positions up to 2³⁰, radii from 2⁻³⁰ to 2³⁰, on the SPU from 2⁻¹⁴: at each end, and one step beyond.
+#[test]
+fn spheres_are_in_range_where_it_says() {
+    let (farthest, least) = (2f32.powi(30), 2f32.powi(-30));
+    let ball = |center, radius| Sphere { center, radius, color: [1; 3] };
+    for radius in [least, 1.0, farthest] {
+        assert!(sphere_in_range(&ball([0.0; 3], radius)));
+    }
+    for radius in [least.next_down(), farthest.next_up()] {
+        assert!(!sphere_in_range(&ball([0.0; 3], radius)));
+    }
+    let size = Size::new(2, 2).expect("small");
+    let eyes =
+        |eye| Camera::new(eye, [-1.0, 1.0, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], size).expect("valid");
+    let near = ball([0.0; 3], 1.0);
+    for axis in 0..3 {
+        for sign in [-1.0, 1.0] {
+            let at = |x: f32| std::array::from_fn(|i| if i == axis { sign * x } else { 0.0 });
+            for (x, within) in [(farthest, true), (farthest.next_up(), false)] {
+                assert_eq!(sphere_in_range(&ball(at(x), 1.0)), within);
+                assert_eq!(in_range(Arithmetic::Certified, &[near], &eyes(at(x))), within);
+                assert_eq!(
+                    in_range(Arithmetic::Certified, &[near, ball(at(x), 1.0)], &eyes([0.0; 3])),
+                    within
+                );
+            }
+        }
+    }
+    let small = 2f32.powi(-14);
+    for form in [Form::Textbook, Form::Perpendicular] {
+        for (radius, on_spu) in [(small, true), (small.next_down(), false)] {
+            let asked = |arithmetic| in_range(arithmetic, &[near, ball([0.0; 3], radius)], &eyes([0.0; 3]));
+            assert_eq!(asked(Arithmetic::Spu(form)), on_spu);
+            assert!(asked(Arithmetic::Rounded(form)));
+        }
+    }
+}
+
+/// The slack of a camera's directions, and with it what a tile grants, is 8u of the largest component that any sign of its parts could give.
+#[test]
+fn slack_is_that_of_the_largest_direction() {
+    let seed = seed();
+    let mut rng = generator(seed, 2);
+    for case in 0..5_000 {
+        let size = power(&mut rng, -10.0, 10.0);
+        let Some(camera) = camera(&mut rng, size) else { continue };
+        let [w, h] = [camera.size().width(), camera.size().height()].map(f64::from);
+        let mut largest = 0f64;
+        for signs in 0..8u32 {
+            let sign = |part: u32| if signs >> part & 1 == 0 { 1.0 } else { -1.0 };
+            for i in 0..3 {
+                let [c, u, v] = [camera.corner(), camera.du(), camera.dv()].map(|v| f64::from(v[i]));
+                largest = largest.max(sign(0) * c + sign(1) * w * u + sign(2) * h * v);
+            }
+        }
+        let given = f64::from(tile::slack(NEAREST as f32, &camera)) / (8.0 * NEAREST);
+        assert!(
+            (given / largest - 1.0).abs() < 1e-6,
+            "case {case} of CGT_SEED={seed}: {given:e}, not {largest:e}"
+        );
+    }
+}
+
+/// Thresholds and roots of the certified stage against the derivation before it was sorted by powers of r and m.
+#[test]
+fn bounds_are_those_derived() {
+    let seed = seed();
+    let mut rng = generator(seed, 3);
+    // A slack of 2⁻¹⁰, and a few roundings.
+    let slack = 1.2 / 1024.0 / NEAREST;
+    for unit in [NEAREST, TRUNCATING, 1.0 / 4096.0, 1.0 / 16.0] {
+        for case in 0..5_000 {
+            let (r, m) = (power(&mut rng, -20.0, 20.0) as f32, power(&mut rng, -20.0, 20.0) as f32);
+            let given = Rule::new(unit).bound(m, r);
+            let what =
+                || format!("unit {unit:e}, case {case} of CGT_SEED={seed}: r {r:e}, m {m:e}, {given:?}");
+            let (r, m) = (f64::from(r), f64::from(m));
+            let [hit_above, miss_below] = thresholds(unit, r, m);
+            assert_stated(hit_above, given.hit_above, slack, &what);
+            assert_stated(miss_below, -given.miss_below, slack, &what);
+            assert_stated(root(unit, r, m), given.root, slack, &what);
+        }
+    }
+    eprintln!("CGT_SEED={seed}: 20000 bounds");
+}
+
+/// What many of the derivation's steps share: γ_k, K, β and κ.
+fn steps(u: f64) -> (impl Fn(i32) -> f64, f64, f64, f64) {
+    let gamma = move |k: i32| (1.0 + u).powi(k) - 1.0;
+    let k = (1.0 + u) * (u + (1.0 + u) * u / 2.0 + (1.0 + u) * u) + u * u;
+    let beta = (gamma(2) + 2.0 * gamma(5)) / 3.0;
+    (gamma, k, beta, (1.0 + beta) * (1.0 + u).powi(2) - 1.0)
+}
+
+/// Above which D is positive, and below minus which negative.
+fn thresholds(u: f64, r: f64, m: f64) -> [f64; 2] {
+    let (gamma, k, _, kappa) = steps(u);
+    let p = (6.0 * k * k + 3.0 * u * u).sqrt() * m + 2.0 * gamma(3) * (k + u) * m;
+    let of_e = 3f64.sqrt() * gamma(2) + 2f64.sqrt() * gamma(3) * (1.0 + gamma(2));
+    let rho = 3f64.sqrt() * r;
+    let x = p + of_e * rho;
+    let missed = kappa * rho.powi(2) + gamma(3) * (rho + x).powi(2) + 2.0 * rho * x + x.powi(2);
+    let hit = (kappa + gamma(3)) * rho.powi(2) + 2.0 * rho * x;
+    [hit, missed].map(|of| of + u * (rho.powi(2) + missed))
+}
+
+/// What the ends of a root's interval are off by.
+fn root(u: f64, r: f64, m: f64) -> f64 {
+    let (gamma, k, beta, _) = steps(u);
+    let eta = (1.0 + u) / (1.0 - beta) - 1.0;
+    let tau = (1.0 + eta) * (1.0 + u);
+    let across = 0.5f64.sqrt() * (1.0 + gamma(3)) * (k + u) * m
+        + (2f64 / 3.0).sqrt() * (gamma(2) + gamma(3) * (1.0 + gamma(2))) * r;
+    let offset = tau * across + (tau - 1.0) * r;
+    let foot = offset + u * m + u * (r + m + u * m + offset);
+    // Both thresholds are a r² + b r m + c m², whose root is at most √a r + √b (r + m) / 2 + √c m.
+    let both = |r, m| thresholds(u, r, m).iter().sum::<f64>();
+    let (a, c) = (both(1.0, 0.0), both(0.0, 1.0));
+    let b = both(1.0, 1.0) - a - c;
+    let widest = r + a.sqrt() * r + b.sqrt() * (r + m) / 2.0 + c.sqrt() * m;
+    assert!(widest >= r + both(r, m).sqrt() * (1.0 - 1e-9));
+    let half = ((1.0 + eta) * (1.0 + u).powi(3) - 1.0) * widest;
+    let ends = 2.0 * u * (1.0 + u) * (r + m + widest + foot + half);
+    (foot + half + ends) * (1.0 + u) / (1.0 - u)
+}
+
+fn scattered(rng: &mut impl Rng, count: usize, extent: [f32; 3]) -> Vec<Sphere> {
+    let mut ball = || Sphere {
+        center: extent.map(|e| if e > 0.0 { rng.random_range(-e..e) + 3.0 } else { 3.0 }),
+        #[allow(clippy::cast_possible_truncation, reason = "any f32 will do")]
+        radius: power(rng, -8.0, 1.0) as f32,
+        color: [1; 3],
+    };
+    (0..count).map(|_| ball()).collect()
+}
+
+/// Cells on an axis that a box of that extent should have: cubes, about so many in all, from 1 to the limit.
+fn assert_cubes(n: [i32; 3], extent: [f64; 3], wanted: f64, limit: i32, what: &dyn Fn() -> String) {
+    let volume: f64 = extent.iter().filter(|e| **e > 0.0).product();
+    let side = (volume / wanted).cbrt();
+    for (n, e) in n.into_iter().zip(extent) {
+        let cubes = (e / side).clamp(1.0, limit.into());
+        assert!((f64::from(n) - cubes).abs() < 0.501, "{n} cells, not {cubes}; {}", what());
+    }
+}
+
+/// A grid for tiles is over the box of the centres, with 1/32 cell a sphere; large are those from the least power of two that one in 64 and
+/// 32 more reach at most; and packets look as far around as the largest of the others.
+#[test]
+fn grids_for_tiles_are_as_stated() {
+    let seed = seed();
+    let mut rng = generator(seed, 4);
+    let (mut memory, mut all_alike, mut with_large) = (Memory::default(), 0, 0);
+    for case in 0..300 {
+        let extent =
+            [power(&mut rng, -3.0, 5.0) as f32, power(&mut rng, -3.0, 5.0) as f32, [0.0, 7.0][case % 2]];
+        let count = rng.random_range(1..4_000);
+        let mut spheres = scattered(&mut rng, count, extent);
+        if case % 5 == 0 {
+            // All of one power of two, but for a few.
+            spheres.iter_mut().for_each(|sphere| sphere.radius = 0.25);
+            spheres.iter_mut().take(case % 4).for_each(|sphere| sphere.radius = 3.0);
+        } else {
+            // Now fewer than make spheres large, now more.
+            let some = count / 128 * (case % 3) + 16;
+            spheres.iter_mut().take(some).for_each(|sphere| sphere.radius *= 8.0);
+        }
+        let what = || format!("case {case} of CGT_SEED={seed}: {count} spheres in {extent:?}");
+        let crew = Crew::new(1 + case % 2).expect("threads");
+        let grid = Grid::by_center(Scalar, &Plan::fast(), &spheres, &mut memory, &crew).expect("in range");
+
+        let end = |i: usize, pick: fn(f32, f32) -> f32| {
+            spheres.iter().map(|s| s.center[i]).reduce(pick).expect("at least one")
+        };
+        let [lo, hi] =
+            [f32::min as fn(f32, f32) -> f32, f32::max].map(|pick| [0, 1, 2].map(|i| end(i, pick)));
+        for i in 0..3 {
+            let planes = &grid.axes[i].planes;
+            assert_eq!((planes[0], planes.last().copied()), (lo[i], Some(hi[i])), "axis {i}; {}", what());
+        }
+        let extent = [0, 1, 2].map(|i| f64::from(hi[i]) - f64::from(lo[i]));
+        let n = [0, 1, 2].map(|i| grid.axes[i].n);
+        assert_cubes(n, extent, count as f64 / 32.0, 240, &what);
+
+        // From which power of two on are there few enough?
+        let from = (-40..40)
+            .map(|power| 2f32.powi(power))
+            .find(|from| spheres.iter().filter(|sphere| sphere.radius >= *from).count() <= count / 64 + 32);
+        let from = from.expect("none is that large");
+        let is_large = |sphere: &Sphere| sphere.radius >= from && count > count / 64 + 32;
+        let large: Vec<u32> = (0..).zip(&spheres).filter(|(_, s)| is_large(s)).map(|(id, _)| id).collect();
+        assert_eq!(grid.large, large, "{}", what());
+        let rest = spheres.iter().filter(|s| !is_large(s)).map(|s| s.radius).fold(0.0, f32::max);
+        assert_eq!(grid.widen.to_bits(), widen(NEAREST as f32, rest).to_bits(), "{}", what());
+        all_alike += u32::from(large.is_empty());
+        with_large += u32::from(!large.is_empty());
+        memory.take(Some(grid));
+    }
+    eprintln!("CGT_SEED={seed}: {with_large} grids with large spheres, {all_alike} without");
+    assert!(with_large > 100 && all_alike > 50);
+}
+
+/// A grid for blocks is over the boxes of all spheres, or their centres, with four cells a sphere; for eight corners these are wider than any box.
+#[test]
+fn grids_for_blocks_are_as_stated() {
+    let seed = seed();
+    let mut rng = generator(seed, 5);
+    let mut limited = 0;
+    for case in 0..300 {
+        let extent =
+            [power(&mut rng, -3.0, 5.0) as f32, power(&mut rng, -3.0, 5.0) as f32, [0.0, 7.0][case % 2]];
+        let count = rng.random_range(1..500);
+        let balls: Vec<Bounds> = scattered(&mut rng, count, extent)
+            .iter()
+            .map(|sphere| Bounds::outward(sphere.center, sphere.radius))
+            .collect();
+        let what = || format!("case {case} of CGT_SEED={seed}: {count} spheres in {extent:?}");
+        for voxelizer in [Voxelizer::BoxRange, Voxelizer::ByCenter, Voxelizer::EightCorners] {
+            let plan = Plan { voxelizer, resolution: Resolution::UpTo(40), ..Plan::safe() };
+            let mut events = Events::default();
+            let grid = Grid::build(Scalar, &plan, &balls, &mut events).expect("falls back");
+            let by_center = voxelizer == Voxelizer::ByCenter;
+            let [lo, hi] = [0, 1].map(|end| {
+                [0, 1, 2].map(|i| {
+                    let all = balls.iter().map(|ball| [ball.lo, ball.hi][end][i]);
+                    let centers = balls.iter().map(|ball| ball.center[i]);
+                    let pick = [f32::min as fn(f32, f32) -> f32, f32::max][end];
+                    if by_center { centers.reduce(pick) } else { all.reduce(pick) }.expect("at least one")
+                })
+            });
+            let extent = [0, 1, 2].map(|i| f64::from(hi[i]) - f64::from(lo[i]));
+            let n = [0, 1, 2].map(|i| grid.axes[i].n);
+            let widest =
+                balls.iter().map(|ball| f64::from(ball.hi[0]) - f64::from(ball.lo[0])).fold(0.0, f64::max);
+            if voxelizer == Voxelizer::EightCorners {
+                assert_eq!(events.count(), 0, "a box spans three cells; {}", what());
+                // Not for want of cells: one more on an axis would be too narrow, or more than are wanted.
+                for i in 0..3 {
+                    let more = extent[i] / f64::from(n[i] + 1);
+                    let volume: f64 = extent.iter().product();
+                    let cubes = (volume / (4.0 * count as f64)).cbrt();
+                    assert!(
+                        n[i] == 40 || more < 1.01 * widest || more < cubes * 1.01,
+                        "axis {i}; {}",
+                        what()
+                    );
+                    limited += u32::from(more < 1.01 * widest);
+                }
+            } else {
+                assert_cubes(n, extent, 4.0 * count as f64, 40, &what);
+            }
+            let largest = balls.iter().map(|ball| ball.radius).fold(0.0, f32::max);
+            let stated = if by_center { widen(NEAREST as f32, largest) } else { 0.0 };
+            assert_eq!(grid.widen.to_bits(), stated.to_bits(), "{}", what());
+        }
+    }
+    assert!(limited > 100, "hardly a box limits cells");
+}
+
+/// By overlap a sphere is listed in the cells that its ball meets, and in no other of its box: by the distance of each cell from its centre,
+/// found another way, and left open where it is the radius to a millionth.
+#[test]
+fn cells_by_overlap_are_those_that_are_met() {
+    let seed = seed();
+    let mut rng = generator(seed, 7);
+    let (mut listed, mut spared) = (0u64, 0u64);
+    for case in 0..12 {
+        let spheres = scattered(&mut rng, 40, [4.0, 3.0, 2.0]);
+        let balls: Vec<Bounds> = spheres.iter().map(|s| Bounds::outward(s.center, s.radius)).collect();
+        let plan = Plan { voxelizer: Voxelizer::Overlap, resolution: Resolution::Fixed(11), ..Plan::safe() };
+        let grid = Grid::build(Scalar, &plan, &balls, &mut Events::default()).expect("nothing to refuse");
+        for index in 0..11 * 11 * 11 {
+            let cell = [index / 121, index / 11 % 11, index % 11];
+            let mut ids = Vec::new();
+            grid.for_each_id(index, true, |id| ids.push(id));
+            for (id, ball) in (0..).zip(&balls) {
+                let off = [0, 1, 2].map(|i| {
+                    let [lo, hi] =
+                        [grid.axes[i].planes[cell[i]], grid.axes[i].planes[cell[i] + 1]].map(f64::from);
+                    let center = f64::from(ball.center[i]);
+                    center - center.clamp(lo, hi)
+                });
+                let (distance, radius) = (length(off), f64::from(ball.radius));
+                if (distance / radius - 1.0).abs() < 1e-6 {
+                    continue;
+                }
+                let what = || format!("cell {cell:?}, sphere {id}, case {case} of CGT_SEED={seed}");
+                assert_eq!(ids.contains(&id), distance < radius, "{}", what());
+                *(if distance < radius { &mut listed } else { &mut spared }) += 1;
+            }
+        }
+    }
+    eprintln!("CGT_SEED={seed}: {listed} entries, {spared} cells without");
+    assert!(listed > 5_000 && spared > 5_000);
+}
+
+/// A row of spheres in a grid with as many slices as there may be, looked through from end to end by every loop that is right.
+#[test]
+fn as_many_slices_as_there_may_be_are_walked() {
+    let spheres = (0..200u8).map(|i| Sphere {
+        center: [f32::from(i % 14) * 0.02 - 0.13, f32::from(i % 11) * 0.02 - 0.1, -f32::from(i)],
+        radius: 0.004,
+        color: [i; 3],
+    });
+    let scene = Scene::new(spheres.collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(24, 24).expect("small");
+    for sign in [1.0, -1.0] {
+        let eye = [0.0, 0.0, if sign > 0.0 { 9.0 } else { -209.0 }];
+        let camera = Camera::new(eye, [-6e-4, 6e-4, -sign], [5e-5, 0.0, 0.0], [0.0, -5e-5, 0.0], size);
+        let camera = camera.expect("valid");
+        let naive = reference::Tracer::new(reference::Arithmetic::F32Perpendicular);
+        let truth = naive.threads(1).render(&scene, &camera).expect("small").image;
+        for walk in [Loop::Nested, Loop::Flattened] {
+            let plan = Plan { walk, resolution: Resolution::UpTo(240), ..Plan::safe() };
+            let (counts, image) = costs(&scene, &camera, plan, 1);
+            assert_eq!((&image.ids, &image.t), (&truth.ids, &truth.t), "{plan}");
+            assert!(counts.cells > 36 * 100, "not all slices are walked: {counts:?}");
+        }
+    }
+}
+
+/// Plans that promise the naive picture, and words in which no two plans are alike.
+#[test]
+fn plans_promise_and_say_what_they_are() {
+    let safe = Plan::safe();
+    assert!(
+        safe.promises_equality() && Plan::fast().promises_equality() && !Plan::paper().promises_equality()
+    );
+    let broken = [
+        Plan { on_event: OnEvent::GoOn, ..safe },
+        Plan { margins: Margins::None, ..safe },
+        Plan { walk: Loop::Printed, ..safe },
+    ];
+    for plan in broken {
+        assert!(!plan.promises_equality(), "{plan}");
+    }
+    assert!(Plan { on_event: OnEvent::Refuse, ..safe }.promises_equality());
+    let mut others = vec![
+        safe,
+        Plan { cells: Cells::Queue, ..safe },
+        Plan { walk: Loop::Nested, ..safe },
+        Plan { culling: Culling::None, ..safe },
+        Plan { sharing: Sharing::Mirrored, ..safe },
+        Plan { on_event: OnEvent::Refuse, ..safe },
+        Plan { packet: Packet::Tile { side: 3 }, ..safe },
+        Plan { packet: Packet::Tile { side: 4 }, ..safe },
+        Plan { resolution: Resolution::UpTo(31), ..safe },
+        Plan { resolution: Resolution::Fixed(32), ..safe },
+    ];
+    others.extend(broken);
+    for voxelizer in [Voxelizer::EightCorners, Voxelizer::Overlap, Voxelizer::ByCenter] {
+        others.push(Plan { voxelizer, ..safe });
+    }
+    for form in [Form::Textbook, Form::Perpendicular] {
+        others.extend(
+            [Arithmetic::Rounded(form), Arithmetic::Spu(form)].map(|arithmetic| Plan { arithmetic, ..safe }),
+        );
+    }
+    others.push(Plan { arithmetic: Arithmetic::Certified, ..safe });
+    others.retain(|plan| *plan != safe);
+    let mut words: Vec<String> = others.iter().chain([&safe]).map(Plan::to_string).collect();
+    words.sort();
+    let all = words.len();
+    words.dedup();
+    assert_eq!(words.len(), all, "two plans are said alike");
+    assert_eq!(all, 20);
+}
+
+/// Workers are as many as asked for, and none is as good as one.
+#[test]
+fn a_crew_has_its_size() {
+    for (asked, size) in [(0, 1), (1, 1), (2, 2), (3, 3)] {
+        assert_eq!(Crew::new(asked).expect("threads").size(), size);
+    }
+    assert_eq!(Crew::alone().size(), 1);
+}
+
+/// What f64 is not sure of has two ends that differ, so that nobody takes one of them for t.
+#[test]
+fn an_uncertain_root_has_two_ends() {
+    let seed = seed();
+    let mut rng = generator(seed, 8);
+    let mut uncertain = 0;
+    for _ in 0..2_000 {
+        let (eye, dir) = (vector(&mut rng, 4.0), vector(&mut rng, 1.0));
+        let root = double::root::<f64>(eye, dir, vector(&mut rng, 4.0), 1.0);
+        let [lo, hi] = root.ends();
+        if !root.hit {
+            uncertain += 1;
+            assert_ne!(lo.to_bits(), hi.to_bits(), "CGT_SEED={seed}: {root:?}");
+        }
+    }
+    assert!(uncertain > 500);
+}
+
+/// One tile that sees all cells looks at all of them and all spheres, unless something hides them; and of small spheres that stand apart f32
+/// is certain.
+#[test]
+fn counts_of_tiles_are_what_they_say() {
+    let seed = seed();
+    let mut rng = generator(seed, 9);
+    let size = Size::new(64, 60).expect("small");
+    // The walk's margins are relative, so it must end as early in a small scene.
+    for scale in [1.0f32, 2f32.powi(-10)] {
+        let camera = Camera::new(
+            [0.0, 0.0, 9.0 * scale],
+            [-0.32, 0.3, -1.0],
+            [0.01, 0.0, 0.0],
+            [0.0, -0.01, 0.0],
+            size,
+        );
+        let camera = camera.expect("valid");
+        let mut ball = |radius: f32| Sphere {
+            center: [0, 1, 2].map(|_| scale * rng.random_range(-1.0f32..1.0)),
+            radius: scale * radius,
+            color: [1; 3],
+        };
+        let mut spheres: Vec<Sphere> = (0..3_000).map(|_| ball(0.001)).collect();
+        let open = Scene::new(spheres.clone(), [0; 3], DEFAULT_LIGHT).expect("valid");
+        // All that a tile sees is hidden: by spheres before all others, over the whole picture.
+        for i in 0..40u8 {
+            for j in 0..40u8 {
+                let at = |i: u8| scale * (f32::from(i) * 0.14 - 2.73);
+                spheres.push(Sphere {
+                    center: [at(i), at(j), 1.2 * scale],
+                    radius: 0.13 * scale,
+                    color: [2; 3],
+                });
+            }
+        }
+        let hidden = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+        let plan =
+            Plan { resolution: Resolution::Fixed(16), packet: Packet::Tile { side: 16 }, ..Plan::fast() };
+        let (counts, _) = costs(&open, &camera, plan, 1);
+        let what = format!("scale {scale:e}, CGT_SEED={seed}: {counts:?}");
+        assert_eq!(
+            (counts.cells, counts.candidates, counts.split_blocks),
+            (16 * 16 * 16, 3_000, 0),
+            "{what}"
+        );
+        assert!(counts.lanes > 300 && counts.asked_f64 * 20 < counts.lanes, "{what}");
+        for (packet, name) in [(Packet::Tile { side: 16 }, "tile"), (Packet::Block, "blocks")] {
+            let plan = Plan { packet, ..plan };
+            let [all, few] = [&open, &hidden].map(|scene| costs(scene, &camera, plan, 1).0);
+            assert!(few.cells * 2 < all.cells, "{name}: {all:?}, behind a wall {few:?}; {what}");
+        }
+    }
+}
+
+/// From within a sphere every ray is answered once, whatever its major axis, and by f32 alone.
+#[test]
+fn every_lane_is_answered_once() {
+    let ball = Sphere { center: [0.01, 0.02, -0.03], radius: 5.0, color: [1; 3] };
+    let scene = Scene::new(vec![ball], [0; 3], DEFAULT_LIGHT).expect("valid");
+    for (width, height) in [(32, 32), (29, 31), (4, 4), (65, 33)] {
+        let size = Size::new(width, height).expect("small");
+        // Directions of whole numbers, of which many are as long on two axes.
+        let camera = Camera::new([0.0; 3], [-20.5, -19.5, -20.0], [1.0, 0.0, 1.0], [0.0, 1.0, 0.0], size);
+        let camera = camera.expect("valid");
+        for side in [1, 2, 16] {
+            let plan = Plan { packet: Packet::Tile { side }, ..Plan::fast() };
+            let (counts, _) = costs(&scene, &camera, plan, 1);
+            let lanes = 16 * u64::from(width.div_ceil(4) * height.div_ceil(4));
+            assert_eq!((counts.lanes, counts.asked_f64), (lanes, 0), "{width}x{height}, {plan}: {counts:?}");
+        }
+    }
+}
+
+/// Who knows what each block shows meets that and nothing else: by tiles each sphere once, by blocks once for each.
+#[test]
+fn the_clairvoyant_meets_what_is_seen() {
+    let seed = seed();
+    let mut rng = generator(seed, 10);
+    for case in 0..12 {
+        let scene = Scene::new(scattered(&mut rng, 60, [3.0; 3]), [7; 3], DEFAULT_LIGHT).expect("valid");
+        let [width, height] = [rng.random_range(5..60), rng.random_range(5..60)];
+        let size = Size::new(width, height).expect("small");
+        let (across, down) = (0.9 / width as f32, -0.9 / height as f32);
+        let camera =
+            Camera::new([3.1, 2.9, 12.0], [-0.45, 0.45, -1.0], [across, 0.0, 0.0], [0.0, down, 0.0], size);
+        let camera = camera.expect("valid");
+        for (packet, side) in
+            [(Packet::Block, 4), (Packet::Tile { side: 2 }, 8), (Packet::Tile { side: 5 }, 20)]
+        {
+            let plan = Plan { packet, ..Plan::fast() };
+            let (_, image) = costs(&scene, &camera, plan, 1);
+            // Of each tile or block, who owns a pixel of it.
+            let mut owners: BTreeSet<(u32, u32, u32)> = BTreeSet::new();
+            for (pixel, id) in (0..).zip(&image.ids).filter(|(_, id)| **id != MISS) {
+                owners.insert((pixel % width / side, pixel / width / side, *id));
+            }
+            let mut session = Tracer::new(plan, Level::best().expect("a level")).session().expect("memory");
+            let known = session.render_known(&scene, &camera, &Known::of(&image)).expect("it is known");
+            let what = format!("case {case} of CGT_SEED={seed}: {width}x{height}, {plan}");
+            assert_eq!((&known.image.ids, &known.image.rgba), (&image.ids, &image.rgba), "{what}");
+            assert_eq!(known.counts.candidates, owners.len() as u64, "{what}");
+            assert!(owners.len() > 5, "{what}: hardly a sphere is seen");
+        }
+    }
+}
+
+fn costs(scene: &Scene, camera: &Camera, plan: Plan, workers: usize) -> (Counts, Image) {
+    let tracer = Tracer::new(plan, Level::best().expect("a level")).workers(workers);
+    let rendering = tracer.render(scene, camera).expect("falls back");
+    (rendering.counts, rendering.image)
+}
+
+/// Lanes, spheres without a grid, and blocks without a common major axis, against what they count.
+#[test]
+fn counts_of_blocks_are_what_they_say() {
+    let seed = seed();
+    let mut rng = generator(seed, 6);
+    let mut splits = 0;
+    for case in 0..40 {
+        let far = if case % 2 == 0 { 1.0 } else { 2f32.powi(31) };
+        let mut spheres = scattered(&mut rng, 30, [2.0; 3]);
+        spheres[0].center[0] = 3.0 * far;
+        let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+        let [width, height] = [rng.random_range(1..40), rng.random_range(1..40)];
+        let size = Size::new(width, height).expect("small");
+        // A wide view, so that major axes change within it.
+        let camera =
+            Camera::new([0.1; 3], [-1.1, 1.3, -1.0], [0.11, 0.013, 0.02], [0.017, -0.12, 0.01], size);
+        let camera = camera.expect("valid");
+        let plan = Plan {
+            arithmetic: Arithmetic::Certified,
+            packet: Packet::Block,
+            walk: Loop::Nested,
+            ..Plan::safe()
+        };
+        let (counts, _) = costs(&scene, &camera, plan, 1 + case % 3);
+        let split = split_blocks(&camera);
+        let blocks = u64::from(width.div_ceil(4) * height.div_ceil(4));
+        let what = format!("case {case} of CGT_SEED={seed}: {counts:?}, {camera:?}");
+        assert_eq!(counts.split_blocks, split, "{what}");
+        assert_eq!(counts.lanes, 16 * blocks, "{what}");
+        if far > 1.0 {
+            assert_eq!(counts.candidates, 30 * (blocks + 15 * split), "{what}");
+            assert_eq!((counts.cells, counts.culled), (0, 0), "{what}");
+        }
+        splits += split;
+    }
+    assert!(splits > 40, "hardly a block was split");
+}
+
+/// Blocks of which no axis is the longest of all rays, in one sense.
+fn split_blocks(camera: &Camera) -> u64 {
+    let size = camera.size();
+    let mut split = 0;
+    for y in (0..size.height()).step_by(4) {
+        for x in (0..size.width()).step_by(4) {
+            let mut together = [true; 6];
+            for lane in 0..16 {
+                let column = (x + lane % 4).min(size.width() - 1);
+                let row = (y + lane / 4).min(size.height() - 1);
+                let d = reference::Ray::of_pixel(camera, column, row).dir;
+                for (i, together) in together.iter_mut().enumerate() {
+                    let along = if i < 3 { d[i] } else { -d[i - 3] };
+                    *together &= along > 0.0 && d.iter().all(|x| x.abs() <= along);
+                }
+            }
+            split += u64::from(together == [false; 6]);
+        }
+    }
+    split
+}
+
+/// Each of the stages behind f32 is counted where a committed case needs it, by blocks and by tiles, and no worker's count is lost.
+#[test]
+fn counts_of_certified_stages_are_what_they_say() {
+    let sum = |name: &str, pick: fn(&Counts) -> u64| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases").join(name);
+        let case = Case::from_json(&std::fs::read(path).expect("it is committed")).expect("a case");
+        for packet in [Packet::Block, Packet::Tile { side: 2 }] {
+            for workers in [1, 2] {
+                let plan = Plan { packet, on_event: OnEvent::FallBack, ..Plan::fast() };
+                let (counts, _) = costs(&case.frames.frames()[0], &case.camera, plan, workers);
+                assert!(pick(&counts) > 0, "{name}, {plan}, {workers} workers: {counts:?}");
+                assert!(counts.lanes >= counts.asked_f64 && counts.asked_f64 >= counts.asked_integers);
+                assert!(
+                    counts.lanes
+                        <= 16
+                            * u64::from(case.camera.size().width())
+                            * u64::from(case.camera.size().height())
+                );
+            }
+        }
+    };
+    sum("integers-round-t.json", |counts| counts.rounded_by_integers);
+    sum("integers-decide-a-tangent.json", |counts| counts.asked_integers);
+    sum("equal-roots.json", |counts| counts.asked_f64);
+}
