@@ -223,10 +223,10 @@ fn the_model_is_told_without_each_feature() {
         let (feature, [least, most]) = (row.feature.expect("all but the first"), rate(row));
         match feature {
             Feature::DualIssue => {
-                assert!(most < whole[1], "{feature:?}: {most} frames a second, whole {whole:?}")
+                assert!(most < whole[1], "{feature:?}: {most} frames a second, whole {whole:?}");
             }
             Feature::Latencies => {
-                assert!(least > whole[0] && most.to_bits() == whole[1].to_bits(), "{feature:?}")
+                assert!(least > whole[0] && most.to_bits() == whole[1].to_bits(), "{feature:?}");
             }
             _ => assert!(
                 least > whole[0] && most >= whole[1],

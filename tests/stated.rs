@@ -343,7 +343,7 @@ fn grids_for_tiles_are_as_stated() {
         memory.take(Some(grid));
     }
     eprintln!("CGT_SEED={seed}: {with_large} grids with large spheres, {all_alike} without");
-    assert!(with_large > 100 && all_alike > 50);
+    assert!(with_large > 100 && all_alike > 10, "too little was at stake");
 }
 
 /// A grid for blocks is over the boxes of all spheres, or their centres, with four cells a sphere; for eight corners these are wider than any box.

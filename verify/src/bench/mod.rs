@@ -7,7 +7,7 @@
 //! camera are traced, and ids and t are left in memory that is kept from frame to frame. The tracer under test leaves
 //! colours too. The order of modules is that of a run: who takes part ([`contestant`], [`ours`], [`outsiders`] with `embree` and
 //! `peers`), who may ([`check`](mod@check)), the clock ([`rounds`](mod@rounds), [`spread`]), one scene ([`scene`]), many
-//! ([`curves`](mod@curves)), and what is said ([`data`], [`baseline`], [`text`], [`page`]).
+//! ([`curves`](mod@curves)), and what is said ([`data`], [`baseline`], [`text`], [`page`](mod@page)).
 
 pub mod contestant;
 pub(crate) mod naive;

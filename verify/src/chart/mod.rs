@@ -2,7 +2,7 @@
 //!
 //! In: a scene, methods, how far away. Out: a [`Chart`] as plain data, and its pictures. All methods of a view answer the same rays in one
 //! run, in interleaved rounds ([`crate::bench::rounds`]), and all are held against the exact picture. Who is wrong is timed too: that is what
-//! is to be seen. The order of modules is that of a run: from where ([`view`]), what is found ([`measure`], [`data`]), how it is shown
+//! is to be seen. The order of modules is that of a run: from where ([`view`]), what is found ([`measure`](mod@measure), [`data`]), how it is shown
 //! ([`page`], [`text`]).
 
 pub mod data;

@@ -78,6 +78,9 @@ pub fn steps(asked: &Asked<'_>) -> u32 {
     u32::try_from(all.map(|(_, steps)| steps).sum::<usize>()).unwrap_or(u32::MAX)
 }
 
+/// What makes a map.
+type Mapping = fn(&Asked<'_>, &(dyn Fn() + Sync)) -> Map;
+
 /// All curves and maps; `tick` is called [`steps`] times.
 #[must_use]
 pub fn stability(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> (Vec<Curve>, Vec<Map>) {
@@ -87,7 +90,7 @@ pub fn stability(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> (Vec<Curve>, Ve
         .map(|(sweep, k)| curve(asked, sweep, k, tick))
         .chain(relations.map(|(relation, k)| related(asked, relation, k, tick)))
         .collect();
-    let map: [fn(&Asked<'_>, &(dyn Fn() + Sync)) -> Map; 3] = [assumptions, grids, packets];
+    let map: [Mapping; 3] = [assumptions, grids, packets];
     let maps = MAPS.into_iter().zip(map).filter(|(name, _)| asked.wants(name));
     (curves, maps.map(|(_, map)| map(asked, tick)).collect())
 }
