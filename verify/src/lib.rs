@@ -7,7 +7,8 @@
 //! (`embree`, behind the feature of that name), [`visible`] from inside the grid tracer, [`bounds`], [`margins`] and [`rounding`] on floats
 //! so [`small`] or so [`few`] of bits that all inputs can be tried, [`cells`] on all f32, [`fuzzed`] on any bytes, [`prove`] by solvers
 //! for all inputs; a [`verdict`] is what they say. [`run`] does it all for one frame, a [`case`] is a failure that anyone can run again, [`bench`](mod@bench) says how
-//! fast, [`spu`] how fast on the paper's processor; [`claims`], [`paper`] with what the paper claims, [`figures`], [`picture`] and [`report`] show it.
+//! fast, [`spu`] how fast on the paper's processor. [`methods`] are all ways to answer rays: [`chart`] has their speed against their error, [`stability`] where each
+//! breaks, [`ablation`] what each choice of a plan buys, [`advice`] which to take. [`claims`], [`paper`] with what the paper claims, [`figures`], [`picture`] and [`report`] show it.
 
 pub mod directed;
 pub mod few;

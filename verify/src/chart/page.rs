@@ -90,8 +90,13 @@ fn shape(family: Family) -> Shape {
 fn scene(chart: &Chart, name: &str) -> Option<SceneCharts> {
     let views: Vec<&View> = chart.views.iter().filter(|view| view.scene == name).collect();
     let near = *views.first()?;
+    let embree =
+        near.points.iter().filter(|point| point.family == Family::Embree && point.ns_per_ray.is_some());
+    let fastest =
+        embree.min_by(|a, b| a.ns_per_ray.unwrap_or_default().total_cmp(&b.ns_per_ray.unwrap_or_default()));
+    let best_outside = fastest.map(|point| point.method.as_str());
     let by = |error: fn(&Point) -> Option<f64>, time: fn(&Point) -> Option<f64>| -> Vec<Dot> {
-        near.points.iter().filter_map(|point| dot(point, error(point)?, time(point)?)).collect()
+        near.points.iter().filter_map(|point| dot(point, error(point)?, time(point)?, best_outside)).collect()
     };
     let ns = |point: &Point| point.ns_per_ray;
     let cycles = |point: &Point| point.spu_cycles_per_ray.map(|[_, most]| most);
@@ -128,10 +133,9 @@ fn scene(chart: &Chart, name: &str) -> Option<SceneCharts> {
     })
 }
 
-fn dot(point: &Point, error: f64, time: f64) -> Option<Dot> {
-    // Of many that are alike one name is enough.
-    let named =
-        !point.method.contains('@') || point.method.contains("-16@avx") || point.method.contains("-1@avx512");
+fn dot(point: &Point, error: f64, time: f64, best_outside: Option<&str>) -> Option<Dot> {
+    // Of many that are alike one name is enough: of Embree's ways that of the fastest.
+    let named = !point.method.contains('@') || best_outside == Some(&point.method);
     (time > 0.0).then(|| Dot {
         label: point.method.clone(),
         told: format!("{}: error {}, {}", point.method, figure(error), figure(time)),
