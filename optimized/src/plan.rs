@@ -17,7 +17,8 @@ pub enum Voxelizer {
     EightCorners,
     /// Into all cells of the sphere's box.
     BoxRange,
-    /// Into the cells of its box whose own box the ball meets.
+    /// Into the cells of its box whose own box the ball meets. Buys 3 to 4 % of the SPU's cycles and no time (`cgt ablate`); kept as what the
+    /// others are held against: it lists no id in vain.
     Overlap,
     /// Into the cell of its centre alone; packets are widened by the largest radius instead (Gribble et al. 2007).
     ByCenter,
@@ -39,7 +40,8 @@ pub enum Cells {
 pub enum Loop {
     /// Three nested loops (the paper's Figure 3, top).
     Nested,
-    /// One loop whose step selects among three cases without a branch (Figure 3, bottom), mended.
+    /// One loop whose step selects among three cases without a branch (Figure 3, bottom), mended. Buys nothing: it took as long as nested loops
+    /// or up to 3.6 times as long, and 1.2 times the SPU's cycles, on every scene measured (`cgt ablate`). Kept as the paper's own.
     Flattened,
     /// That loop as it is printed. A known fault: it keeps the first slice's bounds, runs Y innermost, and visits empty
     /// slices. It is kept to be refuted.
@@ -123,7 +125,7 @@ pub enum OnEvent {
 pub enum Sharing {
     /// One, read by all workers.
     Shared,
-    /// Each worker builds its own (the paper: every SPU voxelizes the whole scene).
+    /// Each worker builds its own (the paper: every SPU voxelizes the whole scene). Buys nothing where memory is shared; kept as the paper's own.
     Mirrored,
 }
 
