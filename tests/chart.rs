@@ -83,6 +83,13 @@ fn every_method_is_held_against_the_exact_picture() {
     let render = |arithmetic| Tracer::new(arithmetic).render(scene, &camera).expect("small").image;
     let expected = compare(&render(Arithmetic::Exact), &render(Arithmetic::F32Textbook)).expect("one size");
     let far = view(&methods, 300.0);
+    // The angle of view shrinks with the distance, or hardly a pixel would hit.
+    assert!(
+        far.hits * 10 > near.hits * 6 && far.hits * 6 < near.hits * 10,
+        "{} and {} pixels hit",
+        near.hits,
+        far.hits
+    );
     let textbook = far.points.iter().find(|p| p.method == "naive-f32-textbook").expect("it takes part");
     assert_eq!(textbook.comparison.as_ref(), Some(&expected));
     assert!(expected.wrong_ids > 0, "nothing is wrong so far away: nothing was at stake");
