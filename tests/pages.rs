@@ -48,7 +48,7 @@ fn parts() -> Made<Vec<Part>> {
     };
     let views = vec![view(1.0)?, view(100.0)?];
     let chart = Chart { schema_version: 1, kind: "chart", environment: environment(), absent, views };
-    let counts = |wrong| Count { rays: 1000, hits: 500, wrong, t_ulp_p99: 0, refused: 0 };
+    let counts = |wrong| Count { rays: 1000, hits: 500, wrong, wrong_t: None, t_ulp_p99: None, refused: 0 };
     let line = |name: &str, family, each: u64| Line {
         method: name.into(),
         family,
@@ -150,12 +150,16 @@ fn page() -> Made<String> {
 
 /// What Chromium says with some arguments; `None` if there is none.
 fn chromium(words: &[&str]) -> Option<Vec<u8>> {
-    let program = std::env::var("CGT_CHROMIUM").unwrap_or_else(|_| "chromium".into());
+    let named = std::env::var("CGT_CHROMIUM");
+    let program = named.clone().unwrap_or_else(|_| "chromium".into());
     let home = tempfile::tempdir().expect("a folder");
     let profile = format!("--user-data-dir={}", home.path().display());
     let fixed =
         ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--virtual-time-budget=8000"];
-    let output = Command::new(program).args(fixed).arg(profile).args(words).output().ok()?;
+    let output = Command::new(&program).args(fixed).arg(profile).args(words).output();
+    // One that is named must be there.
+    assert!(output.is_ok() || named.is_err(), "CGT_CHROMIUM is `{program}`, which does not start");
+    let output = output.ok()?;
     assert!(output.status.success(), "Chromium: {}", String::from_utf8_lossy(&output.stderr));
     Some(output.stdout)
 }
