@@ -3,8 +3,9 @@
 use contract::Size;
 use optimized::{Level, Plan};
 use reference::{Arithmetic, Tracer};
-use verify::ablation::ablate;
+use verify::ablation::data::BaseRows;
 use verify::ablation::model::{Without, model, steps};
+use verify::ablation::{Ablation, ablate};
 use verify::chart::{Asked, Chart, Distance, SCHEMA_VERSION, View, measure};
 use verify::judge::compare::compare;
 use verify::methods::{Family, Method, charted};
@@ -161,6 +162,24 @@ fn an_ablation_changes_one_thing_at_a_time() {
             assert!(base.wrong == Some(0) && exact.clone().all(|row| row.wrong == Some(0)), "{base:?}");
         }
     }
+    let kept =
+        |base: &BaseRows| base.rows.iter().filter_map(|row| row.kept).chain(base.kept).collect::<Vec<_>>();
+    let kept = found.bases.iter().flat_map(kept).collect::<Vec<_>>();
+    assert!(
+        kept.len() > 25 && kept.iter().all(|kept| *kept),
+        "of {} plans that promise the truth one is wrong",
+        kept.len()
+    );
+    let mut ablation = Ablation {
+        schema_version: 1,
+        kind: "ablation",
+        environment: environment(),
+        scenes: vec![found.clone()],
+        model: Vec::new(),
+    };
+    assert_eq!(ablation.broken_promises(), Vec::<String>::new());
+    ablation.scenes[0].bases[1].rows[2].kept = Some(false);
+    assert_eq!(ablation.broken_promises().len(), 1);
     let paper = found.bases.iter().find(|base| base.name == "paper").expect("it is a base");
     let mended = |choice: &str| paper.rows.iter().find(|row| row.choice == choice).and_then(|row| row.wrong);
     assert!(mended("lists") <= paper.wrong && mended("box range") <= paper.wrong, "{paper:?}");

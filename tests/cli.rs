@@ -416,6 +416,11 @@ fn charts_maps_and_the_report_are_made() {
     for chapter in ["advice", "chart", "stability", "ablation", "paper", "spu"] {
         assert!(page.contains(&format!("<section id=\"{chapter}\"")), "{chapter} is no chapter");
     }
+    assert!(
+        met.out.contains("Embree: not judged") && page.contains("<b>Embree: not judged.</b>"),
+        "{}",
+        met.out
+    );
     assert!(!page.contains("<section id=\"proofs\"") && page.contains("shown as a known fault"));
     for name in ["chart.csv", "stability.json", "ablation.csv", "report.json"] {
         assert!(desk.path("all").join(name).is_file(), "{name}");

@@ -171,6 +171,8 @@ fn a_run_is_its_seed_and_a_liar_is_named() {
         vec![
             Method::grid("liar", Family::Exact, |_| Plan::paper(), level, 1),
             Method::grid("rounded", Family::Textbook, |_| Plan::safe(), level, 1),
+            // Its spheres are right, near by; its t are rounded.
+            Method::grid("in t", Family::Exact, |_| Plan::safe(), level, 1),
         ]
     };
     let (one, again) = (run(&methods, 2048, 5, &[]), run(&methods, 2048, 5, &[]));
@@ -178,7 +180,12 @@ fn a_run_is_its_seed_and_a_liar_is_named() {
     assert_eq!(lines(&one), lines(&again));
     assert_ne!(lines(&one), lines(&run(&methods, 2048, 6, &[])));
     let broken = one.broken_promises();
-    assert!(!broken.is_empty() && broken.iter().all(|line| line.contains("liar")), "{broken:?}");
+    let of = |name: &str| broken.iter().filter(|line| line.contains(name)).count();
+    assert!(of("liar") > 0 && of("in t") > 0 && of("rounded") == 0, "{broken:?}");
+    let near = one.curve("distance").and_then(|c| c.line("in t")).expect("measured").counts[2];
+    assert!(near.wrong == 0 && near.wrong_t > Some(0) && near.t_ulp_p99.is_some(), "{near:?}");
+    let turned = one.curve("turned").and_then(|c| c.line("in t")).expect("measured").counts[0];
+    assert_eq!((turned.wrong_t, turned.t_ulp_p99), (None, None), "of t nothing was compared");
     let csv = String::from_utf8(one.csv().expect("in memory")).expect("text");
     let expected = one.curves.iter().map(|c| c.values.len() * c.lines.len()).sum::<usize>()
         + one.maps.iter().map(|m| m.counts.iter().map(Vec::len).sum::<usize>()).sum::<usize>();

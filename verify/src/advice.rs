@@ -59,7 +59,8 @@ pub fn advice(stability: &Stability, chart: &Chart) -> Vec<Advice> {
             word: String::new(),
         })
         .collect();
-    let exact = all.first().map(|advice| advice.costs.clone()).unwrap_or_default();
+    let exact = all.iter().find(|advice| advice.method == ASKED[0].0);
+    let exact = exact.map(|advice| advice.costs.clone()).unwrap_or_default();
     let fastest_right: Vec<bool> = all.iter().map(|advice| beats_all_right(advice, &all)).collect();
     for (advice, best) in all.iter_mut().zip(fastest_right) {
         advice.word = word(advice, &exact, best);
@@ -71,9 +72,9 @@ pub fn advice(stability: &Stability, chart: &Chart) -> Vec<Advice> {
 fn never_wrong(stability: &Stability, method: &str) -> bool {
     let mut curves = stability.curves.iter().filter(|curve| curve.by_truth);
     curves.all(|curve| {
-        curve
-            .line(method)
-            .is_some_and(|line| line.counts.iter().all(|count| count.rays > 0 && count.wrong == 0))
+        curve.line(method).is_some_and(|line| {
+            line.counts.iter().all(|count| count.rays > 0 && count.wrong + count.refused == 0)
+        })
     })
 }
 

@@ -57,6 +57,8 @@ pub struct BaseRows {
     pub cycles_per_ray: Option<[f64; 2]>,
     /// Pixels with another sphere than the exact picture.
     pub wrong: Option<u64>,
+    /// Whether its picture is the exact one to the last bit, of a plan that promises that.
+    pub kept: Option<bool>,
     /// Each variant.
     pub rows: Vec<Row>,
 }
@@ -74,11 +76,34 @@ pub struct Row {
     pub cycles: Option<f64>,
     /// Pixels with another sphere than the exact picture.
     pub wrong: Option<u64>,
+    /// Whether its picture is the exact one to the last bit, of a plan that promises that.
+    pub kept: Option<bool>,
     /// Why it gave no picture.
     pub remark: Option<String>,
 }
 
 impl Ablation {
+    /// Plans that promise the exact picture and did not give it, with where.
+    #[must_use]
+    pub fn broken_promises(&self) -> Vec<String> {
+        let mut broken = Vec::new();
+        for scene in &self.scenes {
+            for base in &scene.bases {
+                if base.kept == Some(false) {
+                    broken.push(format!("{}, {}: {:?} wrong ids", scene.scene, base.name, base.wrong));
+                }
+                for row in base.rows.iter().filter(|row| row.kept == Some(false)) {
+                    let Row { concern, choice, wrong, .. } = row;
+                    broken.push(format!(
+                        "{}, {}, {concern} {choice}: {wrong:?} wrong ids",
+                        scene.scene, base.name
+                    ));
+                }
+            }
+        }
+        broken
+    }
+
     /// One line for each variant of each base on each scene, with a line of headings.
     ///
     /// # Errors

@@ -7,7 +7,9 @@ use crate::bench::scene::{BenchError, Progress};
 use crate::chart::{Asked, Distance, Point, View, measure};
 use crate::methods::{Family, Method};
 use crate::subject::NamedPlan;
+use crate::verdict::Comparison;
 use contract::Scene;
+use optimized::plan::Arithmetic;
 use optimized::{Level, Plan};
 
 /// What the chosen plan is called among the methods.
@@ -67,9 +69,15 @@ fn rows(view: &View, base: &super::variants::Base) -> BaseRows {
     let ns = own.and_then(|point| point.ns_per_ray);
     let cycles = own.and_then(|point| point.spu_cycles_per_ray);
     let wrong = |point: Option<&Point>| Some(point?.comparison.as_ref()?.wrong_ids);
+    let kept = |plan: &Plan, point: Option<&Point>| {
+        let promised = plan.arithmetic == Arithmetic::Certified && plan.promises_equality();
+        let same = |c: &Comparison| c.wrong_ids + c.wrong_t + c.wrong_color == 0;
+        promised.then(|| point.and_then(|point| point.comparison.as_ref()).is_some_and(same))
+    };
     let row = |variant: super::variants::Variant| {
         let point = point(view, &named(base.name, variant.concern, &variant.choice));
         Row {
+            kept: kept(&variant.plan, point),
             concern: variant.concern.into(),
             choice: variant.choice,
             time: point.and_then(|point| point.ns_per_ray).zip(ns).map(|(own, base)| own / base),
@@ -85,6 +93,7 @@ fn rows(view: &View, base: &super::variants::Base) -> BaseRows {
         ns_per_ray: ns,
         cycles_per_ray: cycles,
         wrong: wrong(own),
+        kept: kept(&base.plan, own),
         rows: variants(base.plan).into_iter().map(row).collect(),
     }
 }

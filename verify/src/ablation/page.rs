@@ -1,6 +1,7 @@
 //! An ablation as a part of a page: for each base its variants, scene beside scene.
 
 use super::data::{Ablation, Row};
+use crate::report::chapter::Chapter;
 use crate::report::words::{NONE, count, figure};
 use crate::spu::feature::Feature;
 use askama::Template;
@@ -29,13 +30,6 @@ struct Base {
     on_spu: bool,
     own: Vec<[String; 3]>,
     rows: Vec<(String, String, Vec<[String; 3]>)>,
-}
-
-#[derive(Template)]
-#[template(path = "ablation.html")]
-struct Page<'a> {
-    ablation: &'a Ablation,
-    part: String,
 }
 
 /// The part, as it stands in a page that has the style of charts.
@@ -102,5 +96,7 @@ pub fn part(ablation: &Ablation) -> Result<String, askama::Error> {
 /// # Errors
 /// As [`part`].
 pub fn page(ablation: &Ablation) -> Result<String, askama::Error> {
-    Page { ablation, part: part(ablation)? }.render()
+    let heading = "What each choice buys";
+    Chapter::plain(heading, ("ablation", ablation.schema_version), &part(ablation)?, &ablation.environment)
+        .render()
 }

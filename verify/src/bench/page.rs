@@ -6,18 +6,10 @@ use super::data::{Bench, Curve, Row, SceneBench};
 
 use super::text::sentences;
 use crate::plot::{Axes, Scaling, Series, plot, short};
+use crate::report::chapter::Chapter;
 use crate::report::view::Badge;
 use crate::report::words::{NONE, count, duration, figure};
 use askama::Template;
-
-#[derive(Template)]
-#[template(path = "bench.html")]
-struct Page<'a> {
-    bench: &'a Bench,
-    badge: Badge,
-    part: String,
-    seed: String,
-}
 
 #[derive(Template)]
 #[template(path = "bench-part.html")]
@@ -59,8 +51,22 @@ struct Shown {
 /// # Errors
 /// If the template fails, which its types give no cause for.
 pub fn page(bench: &Bench) -> Result<String, askama::Error> {
-    let seed = bench.environment.seed.map_or_else(|| "none".into(), |seed| seed.to_string());
-    Page { bench, badge: bench.verdict().into(), part: part(bench)?, seed }.render()
+    let badge = Badge::from(bench.verdict());
+    let outsiders: String = bench.outsiders.iter().map(|name| format!(", {name}")).collect();
+    Chapter {
+        over: &format!("How fast: {} at {}{outsiders}", bench.plan, bench.level),
+        sign: badge.sign,
+        heading: badge.word,
+        class: badge.class,
+        lead: "",
+        body: &part(bench)?,
+        environment: &bench.environment,
+        beside: format!(
+            "The same data, to be read by programs: bench.json, schema {}.",
+            bench.schema_version
+        ),
+    }
+    .render()
 }
 
 /// What of it stands in a page of more.

@@ -4,6 +4,7 @@ use super::data::{Chart, Point, View};
 use crate::methods::Family;
 use crate::plot::scatter::{Dot, Shape, scatter};
 use crate::plot::{Axes, Scaling, Series, plot, power, short};
+use crate::report::chapter::Chapter;
 use crate::report::words::{NONE, count, figure};
 use askama::Template;
 
@@ -34,13 +35,6 @@ struct Table {
     remarks: Vec<String>,
 }
 
-#[derive(Template)]
-#[template(path = "chart.html")]
-struct Page<'a> {
-    chart: &'a Chart,
-    part: String,
-}
-
 /// The part, as it stands in a page that has the style of charts.
 ///
 /// # Errors
@@ -64,7 +58,8 @@ pub fn part(chart: &Chart) -> Result<String, askama::Error> {
 /// # Errors
 /// As [`part`].
 pub fn page(chart: &Chart) -> Result<String, askama::Error> {
-    Page { chart, part: part(chart)? }.render()
+    let heading = "Speed against accuracy";
+    Chapter::plain(heading, ("chart", chart.schema_version), &part(chart)?, &chart.environment).render()
 }
 
 /// A family's mark, small.

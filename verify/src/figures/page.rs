@@ -2,6 +2,7 @@
 
 use super::Figure;
 use crate::report::Environment;
+use crate::report::chapter::Chapter;
 use askama::Template;
 
 /// What stands on the page beside the figures.
@@ -13,13 +14,6 @@ pub struct About {
     pub facts: String,
     /// Where, when and how it was made.
     pub environment: Environment,
-}
-
-#[derive(Template)]
-#[template(path = "figures.html")]
-struct Page<'a> {
-    about: &'a About,
-    figures: &'a [Figure],
 }
 
 #[derive(Template)]
@@ -41,5 +35,16 @@ pub fn part(figures: &[Figure]) -> Result<String, askama::Error> {
 /// # Errors
 /// If the template fails, which its types give no cause for.
 pub fn page(about: &About, figures: &[Figure]) -> Result<String, askama::Error> {
-    Page { about, figures }.render()
+    let files: Vec<String> = figures.iter().map(|figure| format!("{}.svg", figure.name)).collect();
+    Chapter {
+        over: "The paper's figures, drawn by the running code",
+        sign: "",
+        heading: &about.scene,
+        class: "",
+        lead: &about.facts,
+        body: &part(figures)?,
+        environment: &about.environment,
+        beside: format!("Each is a file of its own in the same folder: {}.", files.join(", ")),
+    }
+    .render()
 }

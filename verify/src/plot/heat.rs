@@ -10,6 +10,8 @@ use std::fmt::Write;
 pub(crate) enum Cell {
     /// So many of all, 0 to 1.
     Rate(f64),
+    /// So many of those that were measured; the rest was refused.
+    Partly(f64),
     /// The method refused, or was not asked.
     None,
 }
@@ -74,24 +76,19 @@ pub(crate) fn heat(map: &Heat<'_>) -> Option<String> {
                 wide - 1.0,
                 HIGH - 1.0
             );
-            match cell {
-                Cell::Rate(rate) => {
-                    let told = told(&format!("{} wrong", share(*rate)));
-                    let class = if *rate > 0.0 { "cell" } else { "cell none" };
-                    _ = write!(
-                        svg,
-                        "<rect class=\"{class}\" {at} fill-opacity=\"{:.2}\"><title>{told}</title></rect>",
-                        strength(*rate)
-                    );
-                }
-                Cell::None => {
-                    _ = write!(
-                        svg,
-                        "<rect class=\"cell none\" {at}><title>{}</title></rect>",
-                        told("not measured")
-                    );
-                    line(&mut svg, "crossed", [x + 2.0, y + HIGH - 2.0], [x + wide - 2.0, y + 2.0]);
-                }
+            let (rate, said, crossed) = match cell {
+                Cell::Rate(rate) => (*rate, format!("{} wrong", share(*rate)), false),
+                Cell::Partly(rate) => (*rate, format!("{} wrong, and others refused", share(*rate)), true),
+                Cell::None => (0.0, "not measured".to_owned(), true),
+            };
+            let class = if rate > 0.0 { "cell" } else { "cell none" };
+            let (told, strong) = (told(&said), strength(rate));
+            _ = write!(
+                svg,
+                "<rect class=\"{class}\" {at} fill-opacity=\"{strong:.2}\"><title>{told}</title></rect>"
+            );
+            if crossed {
+                line(&mut svg, "crossed", [x + 2.0, y + HIGH - 2.0], [x + wide - 2.0, y + 2.0]);
             }
         }
     }
@@ -169,5 +166,9 @@ mod tests {
         let drawn = |cell| heat(&map(cell)).expect("a cell");
         assert!(drawn(Cell::None).contains("not measured") && drawn(Cell::None).contains("crossed"));
         assert!(drawn(Cell::Rate(0.0)).contains("0 wrong") && !drawn(Cell::Rate(0.0)).contains("crossed"));
+        assert!(
+            drawn(Cell::Partly(0.0)).contains("others refused")
+                && drawn(Cell::Partly(0.0)).contains("crossed")
+        );
     }
 }

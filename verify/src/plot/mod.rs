@@ -84,7 +84,8 @@ pub(crate) fn power(value: f64) -> String {
     }
 }
 
-fn superscript(digits: &str) -> String {
+/// Digits raised, as an exponent.
+pub(crate) fn superscript(digits: &str) -> String {
     let raised = |c: char| match c {
         '-' => '⁻',
         '1' => '¹',

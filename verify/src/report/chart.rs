@@ -4,6 +4,7 @@
 
 use super::SubjectReport;
 use super::words::{figure, per_million};
+use crate::plot::superscript;
 
 /// Where zero stands, and where the decades begin and end, in percent.
 const ZERO: f64 = 3.0;
@@ -54,7 +55,7 @@ impl Chart {
             label: match power {
                 0 => "1".to_owned(),
                 1 => "10".to_owned(),
-                _ => format!("10{}", superscript(power)),
+                _ => format!("10{}", superscript(&power.to_string())),
             },
         });
         let zero = Tick { at: percent(ZERO), label: "0".to_owned() };
@@ -88,18 +89,4 @@ fn place(per_million: f64, lowest: i32) -> f64 {
 
 fn percent(value: f64) -> String {
     format!("{value:.2}%")
-}
-
-fn superscript(power: i32) -> String {
-    let raised = |c| match c {
-        '-' => '⁻',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        _ => '⁰',
-    };
-    power.to_string().chars().map(raised).collect()
 }

@@ -41,7 +41,6 @@ struct Page<'a> {
     legend: Vec<(String, &'static str)>,
     how_drawn: String,
     zoom_side: u32,
-    seed: Option<String>,
     evidence: Vec<(&'static str, usize)>,
     columns: Vec<&'a str>,
     scenes: &'a [SceneView<'a>],
@@ -82,7 +81,6 @@ pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Resu
             "The ring marks the first wrong pixel. Faults of fewer than one pixel in {RARE} are drawn larger."
         ),
         zoom_side: ZOOM_SIDE,
-        seed: report.environment.seed.map(|seed| seed.to_string()),
         evidence: Evidence::ALL.iter().map(|kind| (kind.word(), rests_on(report, *kind))).collect(),
         columns: columns(report),
         turns: items.iter().any(|item| matches!(item, Item::Film(_))),

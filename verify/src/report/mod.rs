@@ -5,6 +5,7 @@
 //! the words for both, the page, the JSON, the table, and [`write()`], which puts them into a folder. Refused are
 //! pictures that do not match the scenes of the report. No module here reads a clock or the machine it runs on.
 
+pub(crate) mod chapter;
 mod chart;
 mod data;
 mod film;

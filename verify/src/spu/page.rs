@@ -5,16 +5,9 @@ use super::data::Report;
 use super::survey::Survey;
 use super::text::text;
 use crate::plot::{Axes, Scaling, Series, plot, short};
+use crate::report::chapter::Chapter;
 use crate::report::words::figure;
 use askama::Template;
-
-#[derive(Template)]
-#[template(path = "spu.html")]
-struct Page<'a> {
-    report: &'a Report,
-    rate: String,
-    part: String,
-}
 
 #[derive(Template)]
 #[template(path = "spu-part.html")]
@@ -39,7 +32,20 @@ pub fn page(report: &Report) -> Result<String, askama::Error> {
         format!("{} to {}", figure(least), figure(most))
     });
     let host = report.host.as_ref().map(ToString::to_string);
-    Page { report, rate, part: part(&report.surveys, &report.curves, host)? }.render()
+    let of = report.surveys.first().map_or_else(String::new, |survey| {
+        format!(", {}, {} × {} pixels", survey.scene, survey.size[0], survey.size[1])
+    });
+    Chapter {
+        over: "A frame on six SPUs at 3.2 GHz",
+        sign: "",
+        heading: &rate,
+        class: "equal",
+        lead: &format!("frames a second{of}. The least is the machine in the order as written, the most perfect scheduling; both with every loop hinted."),
+        body: &part(&report.surveys, &report.curves, host)?,
+        environment: &report.environment,
+        beside: format!("The same data, to be read by programs: spu.json, schema {}.", report.schema_version),
+    }
+    .render()
 }
 
 /// Curves and surveys as a part of a page that has the style of charts.

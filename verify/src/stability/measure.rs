@@ -112,27 +112,34 @@ fn answer(method: &Method, shot: &Shot) -> Option<(Vec<u32>, Vec<f32>)> {
 struct Tally(Count, Vec<u64>);
 
 impl Tally {
-    fn add(&mut self, expected: (&[u32], &[f32]), given: Option<(Vec<u32>, Vec<f32>)>) {
+    /// Counts a picture; of t only if there is one to compare with.
+    fn add(&mut self, ids: &[u32], t: Option<&[f32]>, given: Option<(Vec<u32>, Vec<f32>)>) {
         let Self(count, ulps) = self;
-        let Some((ids, t)) = given else {
+        let Some(given) = given else {
             count.refused += 1;
             return;
         };
-        count.rays += expected.0.len() as u64;
-        for (i, id) in expected.0.iter().enumerate() {
-            let came = ids.get(i).copied();
+        count.rays += ids.len() as u64;
+        for (i, id) in ids.iter().enumerate() {
+            let came = given.0.get(i).copied();
             count.hits += u64::from(*id != MISS);
             count.wrong += u64::from(came != Some(*id));
-            if *id != MISS && came == Some(*id) {
-                ulps.push(t.get(i).map_or(u64::MAX, |t| ulps_apart(expected.1[i], *t)));
+            if let Some(t) = t.filter(|_| *id != MISS && came == Some(*id)) {
+                let own = given.1.get(i).copied();
+                *count.wrong_t.get_or_insert(0) += u64::from(own.map(f32::to_bits) != Some(t[i].to_bits()));
+                ulps.push(own.map_or(u64::MAX, |own| ulps_apart(t[i], own)));
             }
         }
+    }
+
+    fn against(&mut self, truth: &Image, given: Option<(Vec<u32>, Vec<f32>)>) {
+        self.add(&truth.ids, Some(&truth.t), given);
     }
 
     fn done(self) -> Count {
         let Self(count, mut ulps) = self;
         ulps.sort_unstable();
-        let p99 = ulps.get((ulps.len().max(1) - 1) * 99 / 100).copied().unwrap_or(0);
+        let p99 = ulps.get((ulps.len().max(1) - 1) * 99 / 100).copied();
         Count { t_ulp_p99: p99, ..count }
     }
 }
@@ -158,7 +165,7 @@ fn curve(asked: &Asked<'_>, sweep: &Sweep, number: u64, tick: &(dyn Fn() + Sync)
                 let Some(truth) = truth(&shot) else { continue };
                 // Of a single ray it is the sphere at stake alone that counts; of a picture all.
                 for (method, tally) in methods.iter().zip(&mut tallies) {
-                    tally.add((&truth.ids, &truth.t), answer(method, &shot));
+                    tally.against(&truth, answer(method, &shot));
                 }
             }
             tick();
@@ -192,10 +199,10 @@ fn related(asked: &Asked<'_>, relation: &Relation, number: u64, tick: &(dyn Fn()
                 let mut rng = drawn(asked, number, k as u64, shot);
                 let Some([before, after]) = (relation.pair)(*value, &mut rng) else { continue };
                 for (method, tally) in methods.iter().zip(&mut tallies) {
-                    match (answer(method, &before), answer(method, &after)) {
-                        // Of t nothing is said: what scales a scene scales t.
-                        (Some((old, _)), Some((new, t))) => tally.add((&old, &t), Some((new, t.clone()))),
-                        _ => tally.add((&[], &[]), None),
+                    // Of t nothing is said: what scales a scene scales t.
+                    match answer(method, &before) {
+                        Some((old, _)) => tally.add(&old, None, answer(method, &after)),
+                        None => tally.add(&[], None, None),
                     }
                 }
             }
@@ -243,7 +250,7 @@ fn assumptions(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
                 let Some(shot) = crowded(*count, *ratio, &mut rng) else { continue };
                 let naive = Tracer::new(Arithmetic::F32Textbook).threads(1).render(&shot.scene, &shot.camera);
                 let Ok(naive) = naive else { continue };
-                tally.add((&naive.image.ids, &naive.image.t), answer(&paper, &shot));
+                tally.against(&naive.image, answer(&paper, &shot));
             }
             tally.done()
         };
@@ -279,7 +286,7 @@ fn grids(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
                 let method = Method::grid(name, Family::Paper, move |_| plan, asked.level, 1);
                 let mut tally = Tally::default();
                 if let Ok(truth) = &truth {
-                    tally.add((&truth.image.ids, &truth.image.t), answer(&method, &shot));
+                    tally.against(&truth.image, answer(&method, &shot));
                 }
                 tally.done()
             };
@@ -314,7 +321,7 @@ fn packets(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
             let method = Method::grid("exact", Family::Exact, move |_| plan, asked.level, 1);
             let mut tally = Tally::default();
             if let Ok(truth) = &truth {
-                tally.add((&truth.image.ids, &truth.image.t), answer(&method, &shot));
+                tally.against(&truth.image, answer(&method, &shot));
             }
             tally.done()
         };

@@ -5,6 +5,7 @@ use super::data::{Count, Curve, Map, Stability};
 use crate::methods::Family;
 use crate::plot::heat::{Cell, Heat, heat, share};
 use crate::plot::{Axes, Mark, STYLE, Scaling, Series, alone, plot, power};
+use crate::report::chapter::Chapter;
 use crate::report::words::{NONE, count};
 use askama::Template;
 
@@ -35,13 +36,6 @@ struct Shown {
     lines: Option<String>,
 }
 
-#[derive(Template)]
-#[template(path = "stability.html")]
-struct Page<'a> {
-    stability: &'a Stability,
-    part: String,
-}
-
 /// The part, as it stands in a page that has the style of charts.
 ///
 /// # Errors
@@ -65,7 +59,14 @@ pub fn part(stability: &Stability) -> Result<String, askama::Error> {
 /// # Errors
 /// As [`part`].
 pub fn page(stability: &Stability) -> Result<String, askama::Error> {
-    Page { stability, part: part(stability)? }.render()
+    let heading = "Where methods break";
+    Chapter::plain(
+        heading,
+        ("stability", stability.schema_version),
+        &part(stability)?,
+        &stability.environment,
+    )
+    .render()
 }
 
 /// Each curve and map as a file of its own: its name, and an SVG document.
@@ -78,7 +79,11 @@ pub fn files(stability: &Stability) -> Vec<(String, String)> {
 }
 
 fn cell(count: &Count) -> Cell {
-    count.rate().map_or(Cell::None, Cell::Rate)
+    match count.rate() {
+        None => Cell::None,
+        Some(rate) if count.refused > 0 => Cell::Partly(rate),
+        Some(rate) => Cell::Rate(rate),
+    }
 }
 
 fn breakdowns(curve: &Curve) -> Breakdowns {

@@ -152,6 +152,15 @@ pub(crate) fn default_scenes() -> Vec<String> {
         .to_vec()
 }
 
+/// What is named; if nothing is, a molecule, spheres of many sizes that touch, and random ones.
+pub(crate) fn or_few(scenes: &[String]) -> Vec<String> {
+    if scenes.is_empty() {
+        ["1hvr", "sphereflake:3", "uniform:2000:1"].map(str::to_owned).to_vec()
+    } else {
+        scenes.to_vec()
+    }
+}
+
 #[derive(Args, Debug)]
 pub(crate) struct Bench {
     /// Scenes, as for `verify` [default: 1hvr, adk, sphereflake:4, and 500, 2000 and 4000 random spheres]

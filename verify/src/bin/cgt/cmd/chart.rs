@@ -1,33 +1,26 @@
 //! `cgt chart`: scenes in, every method's speed against its error on the terminal and into files out.
 
 use super::files;
-use super::verify::warn;
-use crate::args::Chart as Args;
+use super::verify::{framed, load, warn};
+use crate::args::{Chart as Args, or_few};
 use crate::environment::environment;
-use crate::{Failure, progress, say};
+use crate::{Failure, progress};
 use optimized::Level;
 use std::process::ExitCode;
 use verify::chart::{Asked, Chart, Distance, SCHEMA_VERSION, measure, page, text};
 use verify::methods::{Method, charted};
-use verify::picture::{check_folder, write_atomically};
+use verify::picture::check_folder;
 use verify::report::Absent;
-use verify::scenes::catalogue::Source;
 use verify::seed::seed;
 
-/// Scenes that are charted where none is named.
-const SCENES: [&str; 3] = ["1hvr", "sphereflake:3", "uniform:2000:1"];
-/// Columns and rows of a picture where no size is asked for.
-const SIZE: [u32; 2] = [320, 180];
+/// Columns and rows of a picture where no size is asked for: slow methods take part.
+pub(crate) const SIZE: [u32; 2] = [320, 180];
 
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
     let chart = chart(args)?;
-    std::fs::create_dir_all(&args.out)
-        .map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
-    write_atomically(&args.out.join("chart.csv"), &chart.csv()?)?;
-    files::write("chart", (None, Some(&args.out)), &chart, page::page)?;
-    say(&text::text(&chart))?;
-    say(&format!("page: {}\n", args.out.join("chart.html").display()))?;
+    let shown = (page::page(&chart)?, text::text(&chart));
+    files::chapter("chart", &args.out, &chart, chart.csv()?, (&shown.0, &shown.1))?;
     Ok(super::kept(&chart.broken_promises()))
 }
 
@@ -36,24 +29,19 @@ pub(crate) fn chart(args: &Args) -> Result<Chart, Failure> {
     let level = args.level.as_deref().map_or_else(Level::best, Level::named)?;
     let (threads, mut absent) = (args.view.threads(), Vec::<Absent>::new());
     let methods: Vec<Method> = charted(level, threads, &mut absent);
-    let (names, seed) = (scenes(args), seed());
+    let (names, seed) = (or_few(&args.scenes), seed());
     let mut views = Vec::new();
     for word in &names {
-        let loaded = Source::parse(word)?.load()?;
-        warn(&loaded);
-        let frames = loaded.animation.frames();
         let frame = args.view.frame;
-        let scene = frames.get(frame).ok_or_else(|| format!("{word} has {} frames", frames.len()))?;
-        let mut framing = args.view.framing().or(&loaded.framing.unwrap_or_default());
-        if framing.size.is_none() {
-            framing.size = Some(contract::Size::new(SIZE[0], SIZE[1])?);
-        }
+        let (loaded, scene) = load(word, frame)?;
+        warn(&loaded);
+        let framing = framed(&args.view, &loaded, SIZE)?;
         for times in &args.far {
             let at = Distance::new(&loaded.animation, &framing, *times)?;
             let asked = Asked {
                 name: word,
                 frame,
-                scene,
+                scene: &scene,
                 methods: &methods,
                 rounds: args.rounds.into(),
                 every: args.sample,
@@ -66,8 +54,4 @@ pub(crate) fn chart(args: &Args) -> Result<Chart, Failure> {
     let mut environment = environment(threads, &[level]);
     environment.seed = Some(seed);
     Ok(Chart { schema_version: SCHEMA_VERSION, kind: "chart", environment, absent, views })
-}
-
-fn scenes(args: &Args) -> Vec<String> {
-    if args.scenes.is_empty() { SCENES.map(str::to_owned).to_vec() } else { args.scenes.clone() }
 }

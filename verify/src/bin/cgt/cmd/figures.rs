@@ -1,5 +1,6 @@
 //! `cgt figures`: the paper's four figures of a scene into a folder, each as a file and all on a page.
 
+use super::files;
 use super::spu::plan_named;
 use super::verify::{load, warn};
 use crate::args::Figures as Args;
@@ -21,8 +22,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
     let (about, drawn) = drawn(args)?;
     let page = page(&about, &drawn)?;
-    std::fs::create_dir_all(&args.out)
-        .map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
+    files::folder(&args.out)?;
     for figure in &drawn {
         let file = args.out.join(format!("{}.svg", figure.name));
         write_atomically(&file, alone(&figure.svg).as_bytes())?;

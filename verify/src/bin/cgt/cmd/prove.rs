@@ -22,8 +22,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         return Err(format!("no lemma is named {}", args.lemmas.join(" or ")).into());
     }
     if let Some(folder) = &args.smt {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| format!("the folder `{}`: {error}", folder.display()))?;
+        files::folder(folder)?;
         for lemma in &chosen {
             let text = lemma.text().map_err(|why| format!("{}: {why}", lemma.name))?;
             write_atomically(&folder.join(format!("{}.smt2", lemma.name)), text.as_bytes())?;

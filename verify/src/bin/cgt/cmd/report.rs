@@ -1,13 +1,12 @@
 //! `cgt report`: everything the suite finds out, on one page that opens offline, with the data of each chapter beside it.
 
 use super::verify::{judged, load};
-use super::{ablate, bench, chart, claims, figures, stability};
-use crate::args;
+use super::{ablate, bench, chart, claims, figures, files, stability};
+use crate::args::{self, or_few};
 use crate::environment::environment;
 use crate::{Failure, progress, say};
 use contract::Size;
 use optimized::{Level, Plan};
-use serde::Serialize;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -16,31 +15,28 @@ use verify::figures::alone;
 use verify::figures::page::part as figure_part;
 use verify::paper::claims as judge_claims;
 use verify::paper::page::part as paper_part;
+use verify::paper::record::{self, Record};
 use verify::picture::{check_folder, write_atomically};
 use verify::prove::run::{Proofs, run as prove};
 use verify::prove::solver::Solver;
-use verify::report::{Part, Report, SCHEMA_VERSION, overall, text, write};
+use verify::report::{Absent, Part, Report, SCHEMA_VERSION, overall, text, write};
 use verify::seed::seed;
 use verify::spu::curves::{Asked as Curves, POINTS, curves};
+use verify::spu::data::{self, Report as Machine};
 use verify::spu::page::part as spu_part;
-use verify::spu::survey::Survey;
 use verify::subject::{Grid, NAIVE, NamedPlan, Subject};
 use verify::verdict::Verdict;
 use verify::{ablation, advice, prove as proofs};
 
-/// Scenes where none is named.
-const SCENES: [&str; 3] = ["1hvr", "sphereflake:3", "uniform:2000:1"];
 /// Pixels where no size is asked for, and of a film.
 const SIZE: [u32; 2] = [640, 360];
 const FILM: [u32; 2] = [480, 270];
 /// Of so many blocks one is traced on the model of the paper's machine.
 const SAMPLE: u32 = 16;
-/// Pixels of a chart, in which slow methods take part.
-const CHART: [u32; 2] = [320, 180];
 
 pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
-    let names = if args.scenes.is_empty() { SCENES.map(str::to_owned).to_vec() } else { args.scenes.clone() };
+    let names = or_few(&args.scenes);
     let level = Level::best()?;
     let size = match args.size {
         Some(size) => size,
@@ -74,11 +70,11 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     papers
         .filter(|subject| subject.name == NamedPlan::Paper.name())
         .for_each(|paper| paper.known_fault = true);
-    let (parts, broken) = chapters(args, &names, &view)?;
-    let mut verdict = overall(&scenes, &[]);
-    if super::kept(&broken) != ExitCode::SUCCESS {
-        verdict = Verdict::Wrong;
-    }
+    let Chapters { parts, broken, mut absent } = chapters(args, &names, &view)?;
+    // The same may be missing in more than one chapter.
+    absent.dedup_by(|one, other| one.judge == other.judge);
+    super::kept(&broken);
+    let verdict = if broken.is_empty() { overall(&scenes, &absent) } else { Verdict::Wrong };
     let report = Report {
         schema_version: SCHEMA_VERSION,
         title: "Sphere tracers, judged".into(),
@@ -86,7 +82,7 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
         environment: environment(threads, &[level]),
         scenes,
         claims: all_claims(),
-        absent: Vec::new(),
+        absent,
     };
     let paths = write(&args.out, &report, &pictures, &parts)?;
     say(&format!("{}report: {}\n", text(&report, std::io::stdout().is_terminal()), paths.html.display()))?;
@@ -106,17 +102,23 @@ fn subjects(level: Level) -> Vec<Box<dyn Subject>> {
     naive.chain(plans).collect()
 }
 
+/// What follows the pictures.
+#[derive(Default)]
+struct Chapters {
+    parts: Vec<Part>,
+    /// Who promised the truth and did not give it.
+    broken: Vec<String>,
+    /// Who could have spoken and did not.
+    absent: Vec<Absent>,
+}
+
 /// What follows the pictures, and who broke a promise of the truth in it; the data of each chapter goes into the folder.
-fn chapters(
-    args: &args::Report,
-    names: &[String],
-    view: &args::View,
-) -> Result<(Vec<Part>, Vec<String>), Failure> {
+fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<Chapters, Failure> {
     let folder = &args.out;
     // Times are those of one thread, which others on the machine disturb least.
     let view = &args::View { threads: 1, ..view.clone() };
-    std::fs::create_dir_all(folder).map_err(|error| format!("the folder `{}`: {error}", folder.display()))?;
-    let (mut parts, mut broken) = (Vec::new(), Vec::new());
+    files::folder(folder)?;
+    let Chapters { mut parts, mut broken, mut absent } = Chapters::default();
     let wanted = |name: &str| !args.skip.iter().any(|skipped| skipped == name);
     let part = |anchor, title: &str, body| Part { anchor, title: title.into(), body };
     if wanted("methods") {
@@ -128,9 +130,9 @@ fn chapters(
             sample: 8,
             level: None,
             out: folder.clone(),
-            view: args::View { size: Some(Size::new(CHART[0], CHART[1])?), ..view.clone() },
+            view: args::View { size: Some(Size::new(chart::SIZE[0], chart::SIZE[1])?), ..view.clone() },
         })?;
-        beside(folder, "chart", &charted, Some(charted.csv()?))?;
+        files::data("chart", folder, &charted, Some(charted.csv()?))?;
         chapter("where methods break");
         let broken_at = stability::found(&args::Stability {
             scenes: names.to_vec(),
@@ -140,8 +142,9 @@ fn chapters(
             level: None,
             out: folder.clone(),
         })?;
-        beside(folder, "stability", &broken_at, Some(broken_at.csv()?))?;
+        files::data("stability", folder, &broken_at, Some(broken_at.csv()?))?;
         broken.extend(charted.broken_promises().into_iter().chain(broken_at.broken_promises()));
+        absent.extend(charted.absent.iter().cloned());
         let advice = advice::part(&advice::advice(&broken_at, &charted))?;
         parts.push(part("advice", "Which method for which scene", advice));
         parts.push(part("chart", "Speed against accuracy", verify::chart::page::part(&charted)?));
@@ -157,7 +160,8 @@ fn chapters(
             out: folder.clone(),
             view: view.clone(),
         })?;
-        beside(folder, "ablation", &ablated, Some(ablated.csv()?))?;
+        files::data("ablation", folder, &ablated, Some(ablated.csv()?))?;
+        broken.extend(ablated.broken_promises());
         parts.push(part("ablation", "What each choice buys", ablation::page::part(&ablated)?));
     }
     if wanted("paper") {
@@ -177,7 +181,10 @@ fn chapters(
         chapter("how fast");
         let benched =
             bench::measured(&args::Bench { rounds: Some(args.rounds), ..args::Bench::of(names, view) })?;
-        beside(folder, "bench", &benched, None)?;
+        files::data("bench", folder, &benched, None)?;
+        if matches!(benched.verdict(), Verdict::Wrong | Verdict::NotJudged) {
+            broken.push("the tracer that is timed gave a wrong picture, or none".into());
+        }
         parts.push(part("bench", "How fast", verify::bench::page::part(&benched)?));
     }
     if wanted("proofs") {
@@ -186,11 +193,15 @@ fn chapters(
         let questions = Proofs::questions(false, |_| true);
         let tick = progress::bar("prove", "lemmas and kernels", u32::try_from(questions).unwrap_or(u32::MAX));
         let proved = prove(|_| true, false, &solvers, seed(), &*tick);
-        beside(folder, "prove", &proved, None)?;
+        files::data("prove", folder, &proved, None)?;
         broken.extend(proved.wrong());
+        if solvers.is_empty() {
+            let why = "No solver was found; tests/fetch-solvers brings two.".into();
+            absent.push(Absent { judge: "Proofs".into(), why, needed: false });
+        }
         parts.push(part("proofs", "Proved", proofs::page::part(&proved)?));
     }
-    Ok((parts, broken))
+    Ok(Chapters { parts, broken, absent })
 }
 
 /// The paper's claims on these scenes, and what a frame of them costs on its machine.
@@ -204,31 +215,38 @@ fn paper(folder: &Path, names: &[String], threads: u16) -> Result<(String, Strin
         let (loaded, scene) = load(word, 0)?;
         scenes.push((word.clone(), scene, loaded.camera(&asked.view.framing())?));
     }
-    let looked = claims::all(&asked, &scenes)?;
-    let found = judge_claims(&looked, seed());
-    beside(folder, "claims", &found, None)?;
+    let (looked, seed) = (claims::all(&asked, &scenes)?, seed());
+    let mut environment = environment(asked.view.threads(), &[]);
+    environment.seed = Some(seed);
+    let found = Record {
+        schema_version: record::SCHEMA_VERSION,
+        kind: "claims".into(),
+        environment: environment.clone(),
+        seed,
+        size: [scenes[0].2.size().width(), scenes[0].2.size().height()],
+        sample: SAMPLE,
+        scenes: names.to_vec(),
+        claims: judge_claims(&looked, seed),
+    };
+    files::data("claims", folder, &found, None)?;
     chapter("the paper's machine");
     let (name, scene, camera) = &scenes[0];
     let framing = asked.view.framing();
     let over = Curves { plan: Plan::paper(), every: SAMPLE, framing: &framing, name, scene, camera };
     let tick = progress::bar("curves", "on the SPU model", POINTS);
-    let curves = curves(&over, &*tick)?;
-    let surveys: Vec<Survey> = looked.into_iter().map(|looked| looked.survey).collect();
-    beside(folder, "spu", &(&surveys, &curves), None)?;
-    Ok((paper_part(&found)?, spu_part(&surveys, &curves, None)?))
+    let machine = Machine {
+        schema_version: data::SCHEMA_VERSION,
+        kind: "spu",
+        environment,
+        surveys: looked.into_iter().map(|looked| looked.survey).collect(),
+        curves: curves(&over, &*tick)?.into(),
+        host: None,
+    };
+    files::data("spu", folder, &machine, None)?;
+    Ok((paper_part(&found.claims)?, spu_part(&machine.surveys, &machine.curves, None)?))
 }
 
 /// What is being done goes to standard error.
 fn chapter(name: &str) {
     _ = writeln!(std::io::stderr(), "== {name}");
-}
-
-/// A chapter's data.
-fn beside(folder: &Path, name: &str, data: &impl Serialize, csv: Option<Vec<u8>>) -> Result<(), Failure> {
-    let json = serde_json::to_string_pretty(data)? + "\n";
-    write_atomically(&folder.join(format!("{name}.json")), json.as_bytes())?;
-    if let Some(csv) = csv {
-        write_atomically(&folder.join(format!("{name}.csv")), &csv)?;
-    }
-    Ok(())
 }

@@ -1,17 +1,15 @@
 //! `cgt stability`: where every method breaks, on the terminal and into files out.
 
 use super::files;
-use super::verify::warn;
-use crate::args::Stability as Args;
+use super::verify::{framed, load, warn};
+use crate::args::{Stability as Args, View};
 use crate::environment::environment;
-use crate::{Failure, progress, say};
-use contract::Size;
+use crate::{Failure, progress};
 use optimized::Level;
 use std::process::ExitCode;
 use verify::methods::{Method, swept};
 use verify::picture::{check_folder, write_atomically};
 use verify::report::Absent;
-use verify::scenes::catalogue::Source;
 use verify::seed::seed;
 use verify::stability::measure::{Named, names};
 use verify::stability::{Asked, SCHEMA_VERSION, Stability, page, stability, steps, text};
@@ -24,15 +22,12 @@ const SIZE: [u32; 2] = [320, 180];
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
     let found = found(args)?;
-    std::fs::create_dir_all(&args.out)
-        .map_err(|error| format!("the folder `{}`: {error}", args.out.display()))?;
-    write_atomically(&args.out.join("stability.csv"), &found.csv()?)?;
+    files::folder(&args.out)?;
     for (name, svg) in page::files(&found) {
         write_atomically(&args.out.join(name), svg.as_bytes())?;
     }
-    files::write("stability", (None, Some(&args.out)), &found, page::page)?;
-    say(&text::text(&found))?;
-    say(&format!("page: {}\n", args.out.join("stability.html").display()))?;
+    let shown = (page::page(&found)?, text::text(&found));
+    files::chapter("stability", &args.out, &found, found.csv()?, (&shown.0, &shown.1))?;
     Ok(super::kept(&found.broken_promises()))
 }
 
@@ -42,12 +37,10 @@ pub(crate) fn found(args: &Args) -> Result<Stability, Failure> {
     let words = if args.scenes.is_empty() { SCENES.map(str::to_owned).to_vec() } else { args.scenes.clone() };
     let mut scenes = Vec::new();
     for word in &words {
-        let loaded = Source::parse(word)?.load()?;
+        let (loaded, scene) = load(word, 0)?;
         warn(&loaded);
-        let mut framing = loaded.framing.unwrap_or_default();
-        framing.size = Some(Size::new(SIZE[0], SIZE[1])?);
-        let scene = loaded.animation.frames().first().ok_or_else(|| format!("{word} has no frame"))?.clone();
-        scenes.push(Named { name: word.clone(), camera: framing.camera(&loaded.animation)?, scene });
+        let framing = framed(&View::default(), &loaded, SIZE)?;
+        scenes.push(Named { name: word.clone(), camera: loaded.camera(&framing)?, scene });
     }
     let mut absent: Vec<Absent> = Vec::new();
     // Who is missing is missing everywhere.

@@ -3,7 +3,7 @@
 use crate::args::{EMBREE, Verify, View};
 use crate::environment::{environment, quoted};
 use crate::{Failure, progress, say};
-use contract::Scene;
+use contract::{Scene, Size};
 use optimized::Level;
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
@@ -13,6 +13,7 @@ use verify::picture::check_folder;
 use verify::report::{Absent, Report, SCHEMA_VERSION, ScenePictures, SceneReport, overall, text, write};
 use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
+use verify::scenes::frame::Framing;
 use verify::scenes::read::Loaded;
 use verify::subject::{Grid, NAIVE, NamedPlan, Subject};
 use verify::verdict::Verdict;
@@ -145,6 +146,16 @@ pub(crate) fn load(word: &str, frame: usize) -> Result<(Loaded, Scene), Failure>
     };
     let scene = scene.clone();
     Ok((loaded, scene))
+}
+
+/// How a scene is seen: as it is wished, then as it wants to be, of a size if none was wished.
+pub(crate) fn framed(view: &View, loaded: &Loaded, [width, height]: [u32; 2]) -> Result<Framing, Failure> {
+    let framing = view.framing().or(&loaded.framing.unwrap_or_default());
+    let size = match framing.size {
+        Some(size) => size,
+        None => Size::new(width, height)?,
+    };
+    Ok(Framing { size: Some(size), ..framing })
 }
 
 /// What a reader passed over goes to standard error.
