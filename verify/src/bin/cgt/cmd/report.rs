@@ -31,6 +31,8 @@ use verify::{ablation, advice, prove as proofs};
 /// Pixels where no size is asked for, and of a film.
 const SIZE: [u32; 2] = [640, 360];
 const FILM: [u32; 2] = [480, 270];
+/// Stands for no film.
+const NO_FILM: &str = "none";
 /// Of so many blocks one is traced on the model of the paper's machine.
 const SAMPLE: u32 = 16;
 
@@ -53,7 +55,7 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
         scenes.push(report);
         pictures.push(set);
     }
-    if args.film != "none" {
+    if args.film != NO_FILM {
         let frames = load(&args.film, 0)?.0.animation.frames().len();
         let two =
             [Grid::new(NamedPlan::Fast, level, false, None), Grid::new(NamedPlan::Paper, level, false, None)];
@@ -134,8 +136,10 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
         })?;
         files::data("chart", folder, &charted, Some(charted.csv()?))?;
         chapter("where methods break");
+        // Grids are turned up on the film's scene too.
+        let film = Some(&args.film).filter(|film| *film != NO_FILM && !names.contains(film));
         let broken_at = stability::found(&args::Stability {
-            scenes: names.to_vec(),
+            scenes: names.iter().chain(film).cloned().collect(),
             only: Vec::new(),
             methods: Vec::new(),
             rays: args.rays,
