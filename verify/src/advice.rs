@@ -2,6 +2,7 @@
 //! that fails somewhere new is told so by the next run.
 
 use crate::chart::{Chart, Point};
+use crate::methods::Family;
 use crate::plot::power;
 use crate::report::words::figure;
 use crate::stability::Stability;
@@ -43,10 +44,12 @@ pub fn advice(stability: &Stability, chart: &Chart) -> Vec<Advice> {
     let mut asked: Vec<(String, String, String)> =
         ASKED.map(|(a, b, c)| (a.to_owned(), b.to_owned(), c.to_owned())).into();
     if let Some(curve) = stability.curves.first() {
-        let outsiders = curve.lines.iter().map(|line| &line.method);
-        let outsiders =
-            outsiders.filter(|m| m.starts_with("embree-16") || ["bvh", "parry3d"].contains(&m.as_str()));
-        asked.extend(outsiders.map(|name| (name.clone(), name.clone(), name.clone())));
+        let outsiders = curve.lines.iter().filter(|line| match line.family {
+            Family::Embree => line.method.starts_with("embree-16"),
+            family => matches!(family, Family::Peer | Family::Foreign),
+        });
+        let names = outsiders.map(|line| line.method.clone());
+        asked.extend(names.map(|name| (name.clone(), name.clone(), name)));
     }
     let mut all: Vec<Advice> = asked
         .into_iter()

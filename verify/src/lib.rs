@@ -2,7 +2,7 @@
 //!
 //! The modules stand in the order in which data flows. Inputs: [`scenes`] reads, makes and frames them, [`matrix`] is the
 //! set that every tracer is held against, [`directed`] makes rays that lie where decisions are close, [`seed`] draws what
-//! is random. What is judged: [`subject`], of other people `peers` (behind
+//! is random. What is judged: [`subject`], in any language [`foreign`], of other people `peers` (behind
 //! the feature of that name). How: [`judge`] by bits and by error bounds and by an outside witness
 //! (`embree`, behind the feature of that name), [`visible`] from inside the grid tracer, [`bounds`], [`margins`] and [`rounding`] on floats
 //! so [`small`] or so [`few`] of bits that all inputs can be tried, [`cells`] on all f32, [`fuzzed`] on any bytes, [`prove`] by solvers
@@ -18,6 +18,8 @@ pub mod seed;
 pub mod small;
 
 pub mod subject;
+
+pub mod foreign;
 
 #[cfg(feature = "peers")]
 pub mod peers;

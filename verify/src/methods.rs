@@ -34,11 +34,13 @@ pub enum Family {
     Embree,
     /// A tracer of other people.
     Peer,
+    /// The user's own, a program ([`crate::foreign`]).
+    Foreign,
 }
 
 impl Family {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Exact,
         Self::F64,
         Self::Textbook,
@@ -47,6 +49,7 @@ impl Family {
         Self::Paper,
         Self::Embree,
         Self::Peer,
+        Self::Foreign,
     ];
 
     /// In words.
@@ -61,6 +64,7 @@ impl Family {
             Self::Paper => "the paper's plan",
             Self::Embree => "Embree",
             Self::Peer => "other crates",
+            Self::Foreign => "your own",
         }
     }
 
@@ -75,6 +79,7 @@ impl Family {
             Self::Paper => "paper",
             Self::Embree => "embree",
             Self::Peer => "peer",
+            Self::Foreign => "foreign",
         }
     }
 }
@@ -102,11 +107,19 @@ impl Method {
         (self.maker)(scene, camera)
     }
 
+    /// One that is made for a scene and a camera when it is asked.
+    pub fn made(
+        name: impl Into<String>,
+        family: Family,
+        maker: impl Fn(&Scene, &Camera) -> Result<Box<dyn Contestant>, SubjectError> + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.into(), family, on_spu: None, maker: Box::new(maker) }
+    }
+
     /// The reference in an arithmetic.
     #[must_use]
     pub fn naive(name: &'static str, family: Family, rounding: Option<Rounding>, threads: usize) -> Self {
-        let maker: Maker = Box::new(move |_, _| Ok(Box::new(Naive::new(name, rounding, threads)?)));
-        Self { name: name.into(), family, on_spu: None, maker }
+        Self::made(name, family, move |_, _| Ok(Box::new(Naive::new(name, rounding, threads)?)))
     }
 
     /// The grid tracer with a plan that may depend on the scene.
@@ -119,9 +132,9 @@ impl Method {
     ) -> Self {
         let name = name.into();
         let own = name.clone();
-        let maker: Maker =
-            Box::new(move |scene, _| Ok(Box::new(Ours::of(own.clone(), plan(scene), level, threads)?)));
-        Self { name, family, on_spu: None, maker }
+        Self::made(name, family, move |scene, _| {
+            Ok(Box::new(Ours::of(own.clone(), plan(scene), level, threads)?))
+        })
     }
 
     /// The same with a plan that the SPU model can run.
@@ -218,10 +231,9 @@ fn embree(every: bool, level: Level, threads: usize) -> Result<Vec<Method>, Stri
             let mode = Mode { build: Build::Plain, width, coherent: width != Width::One };
             let name = format!("embree-{width}@{isa}");
             let (device, own) = (device.clone(), name.clone());
-            let maker: Maker = Box::new(move |_, camera| {
+            methods.push(Method::made(name, Family::Embree, move |_, camera| {
                 Ok(Box::new(Entrant::named(own.clone(), &device, mode, camera, threads)))
-            });
-            methods.push(Method { name, family: Family::Embree, on_spu: None, maker });
+            }));
         }
     }
     Ok(methods)
@@ -237,8 +249,9 @@ fn embree(_: bool, _: Level, _: usize) -> Result<Vec<Method>, String> {
 fn peers(threads: usize) -> Result<Vec<Method>, String> {
     use crate::bench::outsiders::Outsider;
     let of = |peer: Outsider| {
-        let maker: Maker = Box::new(move |_, camera| Ok(crate::bench::peers::entrant(peer, camera, threads)));
-        Method { name: peer.name().into(), family: Family::Peer, on_spu: None, maker }
+        Method::made(peer.name(), Family::Peer, move |_, camera| {
+            Ok(crate::bench::peers::entrant(peer, camera, threads))
+        })
     };
     Ok(vec![of(Outsider::Bvh), of(Outsider::Parry3d)])
 }

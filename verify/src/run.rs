@@ -85,7 +85,8 @@ pub fn run(
         let seconds = start.elapsed().as_secs_f64();
         let mut report = blank(*subject);
         match rendered {
-            Ok(Rendered { image, notes }) => {
+            Ok(Rendered { image, notes, took }) => {
+                let seconds = took.map_or(seconds, |took| took.as_secs_f64());
                 let twin = naive.for_promise(subject.promise(), frame, threads, progress);
                 let verdict = judge(scene, camera, &truth, &image, subject.promise(), twin);
                 report.seconds = Some(seconds);
@@ -93,7 +94,7 @@ pub fn run(
                 report.first_wrong = verdict
                     .comparison
                     .as_ref()
-                    .and_then(|c| account(frame, subject.name(), &truth, &image, c));
+                    .and_then(|c| account(frame, &subject.option(), &truth, &image, c));
                 (report.verdict, report.because) = (verdict.verdict, verdict.because);
                 report.comparison = verdict.comparison;
                 for note in notes {
@@ -194,7 +195,7 @@ impl NaivePictures {
 /// command that comes to it again.
 fn account(
     frame: &Frame<'_>,
-    name: &str,
+    option: &str,
     truth: &Image,
     subject: &Image,
     comparison: &Comparison,
@@ -216,7 +217,7 @@ fn account(
         answer(subject),
     );
     if !frame.replay.is_empty() {
-        text += &format!("\nreplay     {} --subject {name}", frame.replay);
+        text += &format!("\nreplay     {} {option}", frame.replay);
     }
     Some(text)
 }

@@ -1,5 +1,6 @@
 //! What is judged: any tracer that takes a scene and a camera and gives an image, with its promise.
 
+use crate::case::{Asked, MOST_WORKERS};
 use contract::{Camera, Image, Scene};
 use optimized::grid::MAX_CELLS;
 use optimized::plan::{Arithmetic, Cells, Margins, OnEvent, Packet, Resolution, Voxelizer};
@@ -7,6 +8,7 @@ use optimized::seen::Counts;
 use optimized::tile::MAX_SIDE;
 use optimized::{Event, Events, Form, Level, Plan, RenderError};
 use reference::Arithmetic as Naively;
+use std::time::Duration;
 
 /// What a subject says of its own answers. A judge holds it to that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,6 +105,16 @@ pub trait Subject: Sync {
         threads: usize,
         row_done: &(dyn Fn() + Sync),
     ) -> Result<Rendered, SubjectError>;
+
+    /// What asks `cgt` for it on a command line.
+    fn option(&self) -> String {
+        format!("--subject {}", self.name())
+    }
+
+    /// How a case names it with so many threads, so that a failure can be shrunk and kept; none for a tracer that no file can name.
+    fn asked(&self, _threads: usize) -> Option<Asked> {
+        None
+    }
 }
 
 /// What a subject gives.
@@ -112,6 +124,8 @@ pub struct Rendered {
     pub image: Image,
     /// What the subject itself has to say of it, a sentence each.
     pub notes: Vec<String>,
+    /// How long it took, where the call of [`Subject::render`] takes longer than that by what is not the tracer's.
+    pub took: Option<Duration>,
 }
 
 /// The reference in one of its roundings.
@@ -155,7 +169,12 @@ impl Subject for Naive {
         row_done: &(dyn Fn() + Sync),
     ) -> Result<Rendered, SubjectError> {
         let tracer = reference::Tracer::new(self.0.naive()).threads(threads);
-        Ok(Rendered { image: tracer.render_with(scene, camera, row_done)?.image, notes: Vec::new() })
+        let image = tracer.render_with(scene, camera, row_done)?.image;
+        Ok(Rendered { image, notes: Vec::new(), took: None })
+    }
+
+    fn asked(&self, _: usize) -> Option<Asked> {
+        Some(Asked::Naive(*self))
     }
 }
 
@@ -259,7 +278,12 @@ impl Subject for Grid {
         if self.plan.arithmetic == Arithmetic::Certified {
             notes.push(stages(&counts));
         }
-        Ok(Rendered { image: rendering.image, notes })
+        Ok(Rendered { image: rendering.image, notes, took: None })
+    }
+
+    fn asked(&self, threads: usize) -> Option<Asked> {
+        let workers = u8::try_from(threads).unwrap_or(u8::MAX).clamp(1, MOST_WORKERS);
+        Some(Asked::Grid { plan: self.plan, level: self.level, workers })
     }
 }
 

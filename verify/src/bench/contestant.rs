@@ -78,6 +78,8 @@ pub struct Layers<'a> {
 pub struct Frame<'a> {
     /// How long it was from the beginning until all stood that rays share.
     pub build: Duration,
+    /// How long all of it was, where the call takes longer by what is not the contestant's.
+    pub took: Option<Duration>,
     /// What it left, in memory that the next frame will use again.
     pub layers: Layers<'a>,
 }

@@ -71,6 +71,6 @@ impl Contestant for Entrant {
         self.animated.build(scene)?;
         let build = start.elapsed();
         self.animated.trace(self.threads, &mut self.ids, &mut self.t)?;
-        Ok(Frame { build, layers: Layers { ids: &self.ids, t: &self.t, rgba: None } })
+        Ok(Frame { build, took: None, layers: Layers { ids: &self.ids, t: &self.t, rgba: None } })
     }
 }

@@ -46,6 +46,6 @@ impl Contestant for Naive {
     fn frame(&mut self, scene: &Scene, camera: &Camera) -> Result<Frame<'_>, SubjectError> {
         self.image = self.tracer.render(scene, camera)?.image;
         let Image { ids, t, rgba, .. } = &self.image;
-        Ok(Frame { build: Duration::ZERO, layers: Layers { ids, t, rgba: Some(rgba) } })
+        Ok(Frame { build: Duration::ZERO, took: None, layers: Layers { ids, t, rgba: Some(rgba) } })
     }
 }

@@ -112,6 +112,6 @@ impl Contestant for Ours {
             Some(known) => self.session.render_known(scene, camera, known)?,
         };
         let Image { ids, t, rgba, .. } = &rendering.image;
-        Ok(Frame { build: rendering.times.build, layers: Layers { ids, t, rgba: Some(rgba) } })
+        Ok(Frame { build: rendering.times.build, took: None, layers: Layers { ids, t, rgba: Some(rgba) } })
     }
 }

@@ -57,7 +57,7 @@ impl Contestant for Entrant {
             self.trace(camera, |ray| search.nearest(ray));
             build
         };
-        Ok(Frame { build, layers: Layers { ids: &self.ids, t: &self.t, rgba: None } })
+        Ok(Frame { build, took: None, layers: Layers { ids: &self.ids, t: &self.t, rgba: None } })
     }
 }
 

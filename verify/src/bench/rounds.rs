@@ -137,8 +137,8 @@ fn several(mut one: impl FnMut() -> Result<(), SubjectError>) -> Result<(), Subj
 /// A frame: seconds for building, and in all.
 fn one(contestant: &mut dyn Contestant, scene: &Scene, camera: &Camera) -> Result<[f64; 2], SubjectError> {
     let start = Instant::now();
-    let build = contestant.frame(scene, camera).map(|frame| frame.build);
-    let total = start.elapsed();
-    let build = build.map_err(|error| format!("{}: {error}", contestant.name()))?;
-    Ok([build.as_secs_f64(), total.as_secs_f64()])
+    let frame = contestant.frame(scene, camera).map(|frame| (frame.build, frame.took));
+    let elapsed = start.elapsed();
+    let (build, took) = frame.map_err(|error| format!("{}: {error}", contestant.name()))?;
+    Ok([build.as_secs_f64(), took.unwrap_or(elapsed).as_secs_f64()])
 }

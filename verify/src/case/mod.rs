@@ -10,15 +10,17 @@ pub mod plan_words;
 pub mod shrink;
 pub mod text;
 
+use crate::foreign::Foreign;
 use crate::judge::compare::compare;
 use crate::judge::{Judgement, judge};
-use crate::subject::{Naive, Promise, Subject, may_refuse, promise};
+use crate::subject::{Naive, Promise, Subject, SubjectError, may_refuse, promise};
 use crate::verdict::Verdict;
 use contract::{Animation, Camera, Image, Scene};
 use optimized::{Level, Plan, RenderError, Tracer};
 use reference::Arithmetic;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use thiserror::Error;
 
 /// A tracer and what it is to trace.
@@ -38,8 +40,11 @@ pub struct Case {
     pub why: String,
 }
 
+/// The most workers that a case may have.
+pub const MOST_WORKERS: u8 = 64;
+
 /// A tracer that a case names.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Asked {
     /// The reference in one of its roundings.
     Naive(Naive),
@@ -49,8 +54,17 @@ pub enum Asked {
         plan: Plan,
         /// Its level.
         level: Level,
-        /// Its workers, at least 1.
+        /// Its workers, from 1 to [`MOST_WORKERS`].
         workers: u8,
+    },
+    /// A program. A file names no command that reading it would run: who replays the case gives the tracer anew.
+    Foreign {
+        /// Its name.
+        name: String,
+        /// What it is held to.
+        promise: Promise,
+        /// The program.
+        tracer: Option<Arc<Foreign>>,
     },
 }
 
@@ -68,6 +82,20 @@ pub enum CaseError {
     /// The tracer panicked, of which nobody can say where it would have led.
     #[error("the tracer panicked: {0}")]
     Panicked(String),
+    /// The tracer is a program, and none was given.
+    #[error("its tracer `{name}` is a program: --subject-cmd gives it")]
+    NoProgram {
+        /// Its name.
+        name: String,
+    },
+    /// The program gave no picture.
+    #[error("frame {frame}: {error}")]
+    Foreign {
+        /// Which, from 0.
+        frame: usize,
+        /// Why.
+        error: SubjectError,
+    },
     /// The reference gave no picture.
     #[error("no truth to judge by: {0}")]
     Reference(#[from] reference::RenderError),
@@ -78,6 +106,10 @@ impl fmt::Display for Asked {
         match self {
             Self::Naive(naive) => f.write_str(naive.name()),
             Self::Grid { plan, level, workers } => write!(f, "{plan}; {level}, {workers} workers"),
+            Self::Foreign { name, tracer: None, .. } => write!(f, "{name}, a program"),
+            Self::Foreign { name, tracer: Some(tracer), .. } => {
+                write!(f, "{name}, `{}`", tracer.description())
+            }
         }
     }
 }
@@ -89,6 +121,7 @@ impl Asked {
         match self {
             Self::Naive(naive) => naive.promise(),
             Self::Grid { plan, .. } => promise(plan.arithmetic),
+            Self::Foreign { promise, .. } => *promise,
         }
     }
 }
@@ -130,12 +163,22 @@ impl Case {
 
     fn rendered(&self) -> Result<Vec<Image>, CaseError> {
         let frames = self.frames.frames();
-        match self.asked {
+        match &self.asked {
             Asked::Naive(naive) => {
                 let tracer = reference::Tracer::new(naive.0.naive()).threads(1);
                 frames.iter().map(|scene| Ok(tracer.render(scene, &self.camera)?.image)).collect()
             }
-            Asked::Grid { plan, level, workers } => {
+            Asked::Foreign { name, tracer: None, .. } => Err(CaseError::NoProgram { name: name.clone() }),
+            Asked::Foreign { tracer: Some(tracer), .. } => {
+                let render = |(frame, scene): (usize, &Scene)| {
+                    let rendered = tracer.render(scene, &self.camera, 1, &|| ());
+                    rendered
+                        .map(|rendered| rendered.image)
+                        .map_err(|error| CaseError::Foreign { frame, error })
+                };
+                frames.iter().enumerate().map(render).collect()
+            }
+            &Asked::Grid { plan, level, workers } => {
                 let refused = |frame: usize| move |error| CaseError::Refused { frame, error };
                 let tracer = Tracer::new(plan, level).workers(workers.max(1).into());
                 let mut session = tracer.session().map_err(refused(0))?;

@@ -29,7 +29,7 @@ impl Parts {
             light: scenes[0].light(),
             camera: [camera.eye(), camera.corner(), camera.du(), camera.dv()],
             size: [camera.size().width(), camera.size().height()],
-            asked: case.asked,
+            asked: case.asked.clone(),
         }
     }
 
@@ -42,7 +42,7 @@ impl Parts {
         Some(Case {
             frames: Animation::new(frames).ok()?,
             camera: Camera::new(eye, corner, du, dv, size).ok()?,
-            asked: self.asked,
+            asked: self.asked.clone(),
             pixel: None,
             ..like.clone()
         })

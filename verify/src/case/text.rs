@@ -4,7 +4,8 @@
 //! the contract refuses.
 
 use super::plan_words::PlanWords;
-use super::{Asked, Case};
+use super::{Asked, Case, MOST_WORKERS};
+use crate::foreign::PROMISES;
 use crate::scenes::read::{ReadError, read_bytes};
 use crate::scenes::write;
 use crate::subject::{NAIVE_ALL, Subject};
@@ -44,6 +45,7 @@ enum Expected {
 enum Tracer {
     Naive(String),
     Grid { plan: Box<PlanWords>, level: String, workers: u8 },
+    Foreign { name: String, promise: String },
 }
 
 /// Why a file is no case.
@@ -79,10 +81,15 @@ impl Case {
     #[must_use]
     pub fn to_json(&self) -> String {
         let quoted = |text: &str| serde_json::Value::from(text).to_string();
-        let tracer = match self.asked {
+        let tracer = match &self.asked {
             Asked::Naive(naive) => Tracer::Naive(naive.name().into()),
-            Asked::Grid { plan, level, workers } => {
+            &Asked::Grid { plan, level, workers } => {
                 Tracer::Grid { plan: Box::new(plan.into()), level: level.name().into(), workers }
+            }
+            Asked::Foreign { name, promise, .. } => {
+                // What a program may promise has a word.
+                let word = PROMISES.iter().find(|(_, known)| known == promise).map_or("", |(word, _)| word);
+                Tracer::Foreign { name: name.clone(), promise: word.into() }
             }
         };
         let expected = match self.expected {
@@ -121,10 +128,15 @@ impl Case {
             Tracer::Grid { plan, level, workers } => Asked::Grid {
                 plan: (*plan).try_into().map_err(TextError::Words)?,
                 level: if level == "best" { Level::best()? } else { Level::named(&level)? },
-                workers: Some(workers)
-                    .filter(|n| (1..=64).contains(n))
-                    .ok_or_else(|| TextError::Words(format!("{workers} workers; 1 to 64 can be had")))?,
+                workers: Some(workers).filter(|n| (1..=MOST_WORKERS).contains(n)).ok_or_else(|| {
+                    TextError::Words(format!("{workers} workers; 1 to {MOST_WORKERS} can be had"))
+                })?,
             },
+            Tracer::Foreign { name, promise } => {
+                let known = PROMISES.iter().find(|(word, _)| *word == promise);
+                let unknown = || TextError::Words(format!("no program promises `{promise:.40}`"));
+                Asked::Foreign { name, promise: known.ok_or_else(unknown)?.1, tracer: None }
+            }
         };
         Ok(Self {
             frames: loaded.animation,

@@ -75,7 +75,7 @@ fn sample(family: Family) -> String {
 fn shape(family: Family) -> Shape {
     match family {
         Family::Exact => Shape::Circle,
-        Family::F64 | Family::Perpendicular => Shape::Square,
+        Family::F64 | Family::Perpendicular | Family::Foreign => Shape::Square,
         Family::Textbook => Shape::Triangle,
         Family::Spu | Family::Peer => Shape::Down,
         Family::Paper | Family::Embree => Shape::Diamond,

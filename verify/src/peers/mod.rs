@@ -43,7 +43,7 @@ fn picture(
             row_done();
         });
     });
-    Ok(Rendered { image, notes: Vec::new() })
+    Ok(Rendered { image, notes: Vec::new(), took: None })
 }
 
 /// The largest coordinate in play, eye and spheres: what rounding in a box test is relative to.

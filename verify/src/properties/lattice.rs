@@ -163,7 +163,7 @@ impl Lattice {
 
     /// The case for a tracer, in f32: no number of it is rounded.
     #[must_use]
-    pub fn case(&self, asked: Asked) -> Option<Case> {
+    pub fn case(&self, asked: &Asked) -> Option<Case> {
         let [p, q] = self.scale.map(|e| 2f32.powi(e.into()));
         let axis = usize::from(self.heading % 3);
         #[allow(clippy::cast_precision_loss, reason = "below 2^24")]
@@ -185,7 +185,7 @@ impl Lattice {
         Some(Case {
             frames: Animation::from(scene),
             camera: Camera::new(self.eye.map(|x| p * f32::from(x)), corner, du, dv, size).ok()?,
-            asked,
+            asked: asked.clone(),
             expected: Verdict::Undecidable,
             pixel: None,
             why: "a lattice, where integers know the answer".into(),

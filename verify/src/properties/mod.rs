@@ -312,7 +312,7 @@ pub fn certain(seed: u64, cases: u64) -> Result<Stakes, String> {
 /// Every tracer of a lattice: in which form it computes, and whether it is held to what is known in that form only.
 fn all_know(lattice: &Lattice, grids: &[(Form, bool, Asked)]) -> Result<Stakes, Failure> {
     let mut stakes = Stakes::default();
-    let Some(case) = lattice.case(grids[0].2) else { return Ok(none()) };
+    let Some(case) = lattice.case(&grids[0].2) else { return Ok(none()) };
     let pixels: Vec<[u32; 2]> = {
         let (width, height) = (case.camera.size().width(), case.camera.size().height());
         (0..height).flat_map(|y| (0..width).map(move |x| [x, y])).collect()
@@ -328,7 +328,7 @@ fn all_know(lattice: &Lattice, grids: &[(Form, bool, Asked)]) -> Result<Stakes, 
         stakes.add("known tangents", u64::from(known.tangent));
         stakes.add("known from inside or on a surface", u64::from(known.inside && known.answer.is_some()));
     }
-    let hold = |asked: Asked, name: &str, image: &Image, form: Option<Form>| {
+    let hold = |asked: &Asked, name: &str, image: &Image, form: Option<Form>| {
         for ((i, pixel), known) in pixels.iter().enumerate().zip(&known) {
             let Some(known) = known else { continue };
             let is_known = match form {
@@ -342,6 +342,7 @@ fn all_know(lattice: &Lattice, grids: &[(Form, bool, Asked)]) -> Result<Stakes, 
                     "{name}: pixel {pixel:?} is id {} at t {:?} (0x{:08x}); integers know {:?}",
                     came.0, image.t[i], came.1, known.answer,
                 );
+                let asked = asked.clone();
                 return Err(Failure::new(message, Case { asked, pixel: Some(*pixel), ..case.clone() }));
             }
         }
@@ -358,16 +359,16 @@ fn all_know(lattice: &Lattice, grids: &[(Form, bool, Asked)]) -> Result<Stakes, 
         let image = reference::Tracer::new(arithmetic).threads(1).render(scene, &case.camera);
         let rendering = image.map_err(|error| Failure::new(error.to_string(), case.clone()))?;
         let naive = NAIVE_ALL.into_iter().find(|naive| naive.0.naive() == arithmetic).unwrap_or(NAIVE_ALL[0]);
-        hold(Asked::Naive(naive), &format!("reference, {arithmetic:?}"), &rendering.image, form)?;
+        hold(&Asked::Naive(naive), &format!("reference, {arithmetic:?}"), &rendering.image, form)?;
         stakes.add("pictures of the reference", 1);
     }
     for (form, own, asked) in grids {
-        match lattice.case(*asked).map(|case| case.pictures()) {
+        match lattice.case(asked).map(|case| case.pictures()) {
             Some(Ok(images)) => {
-                hold(*asked, &asked.to_string(), &images[0], own.then_some(*form))?;
+                hold(asked, &asked.to_string(), &images[0], own.then_some(*form))?;
                 stakes.add("pictures of the grid tracer", 1);
             }
-            Some(Err(error)) if (Case { asked: *asked, ..case.clone() }).may_fail_with(&error) => {
+            Some(Err(error)) if (Case { asked: asked.clone(), ..case.clone() }).may_fail_with(&error) => {
                 stakes.add("frames refused", 1);
             }
             Some(Err(error)) => return Err(Failure::new(error.to_string(), case.clone())),

@@ -23,7 +23,7 @@ pub fn case(recipe: &Recipe) -> Option<Case> {
     let size = 10f64.powf(f64::from(recipe.size));
     let corner = size * f64::from(recipe.offset);
     let mut spheres = pins(corner, size);
-    let planes = planes(recipe.asked, &spheres, &camera);
+    let planes = planes(&recipe.asked, &spheres, &camera);
     for ball in &recipe.balls {
         add(&mut spheres, ball, corner, size, &camera, planes.as_ref());
     }
@@ -47,7 +47,7 @@ pub fn case(recipe: &Recipe) -> Option<Case> {
     Some(Case {
         frames: Animation::new(frames).ok()?,
         camera,
-        asked: recipe.asked,
+        asked: recipe.asked.clone(),
         expected: Verdict::Undecidable,
         pixel: None,
         why: "drawn by a property".into(),
@@ -70,8 +70,8 @@ fn pins(corner: f64, size: f64) -> Vec<Sphere> {
 }
 
 /// The inner planes of the grid that the tracer makes of the pins.
-fn planes(asked: Asked, pins: &[Sphere], camera: &Camera) -> Option<[Vec<f32>; 3]> {
-    let Asked::Grid { plan, .. } = asked else { return None };
+fn planes(asked: &Asked, pins: &[Sphere], camera: &Camera) -> Option<[Vec<f32>; 3]> {
+    let Asked::Grid { plan, .. } = *asked else { return None };
     let scene = Scene::new(pins.to_vec(), [0; 3], DEFAULT_LIGHT).ok()?;
     let plan = Plan { on_event: OnEvent::FallBack, ..plan };
     let (mut memory, mut events) = (Memory::default(), Events::default());

@@ -79,11 +79,16 @@ impl Relation {
         let before = Case { frames: Animation::from(scene.clone()), ..case.clone() };
         let spheres = scene.spheres().to_vec();
         let old = last(&before).map_err(|error| self.says(&error))?;
-        let with = |spheres: Vec<Sphere>, light: [f32; 3], camera: Option<Camera>, asked: Asked| {
+        let with = |spheres: Vec<Sphere>, light: [f32; 3], camera: Option<Camera>, asked: &Asked| {
             let scene = Scene::new(spheres, scene.background(), light).ok()?;
-            Some(Case { frames: Animation::from(scene), camera: camera?, asked, ..before.clone() })
+            Some(Case {
+                frames: Animation::from(scene),
+                camera: camera?,
+                asked: asked.clone(),
+                ..before.clone()
+            })
         };
-        let plain = |spheres| with(spheres, scene.light(), Some(case.camera), case.asked);
+        let plain = |spheres| with(spheres, scene.light(), Some(case.camera), &case.asked);
         let same = |t: f32| t;
         let keep = |id: u32| id;
         match self {
@@ -113,7 +118,7 @@ impl Relation {
                 };
                 let moved = spheres.iter().map(|s| Sphere { center: flip(s.center), ..*s }).collect();
                 let Some(new) =
-                    with(moved, flip(scene.light()), mapped(&case.camera, flip, flip), case.asked)
+                    with(moved, flip(scene.light()), mapped(&case.camera, flip, flip), &case.asked)
                 else {
                     return Ok(0);
                 };
@@ -124,7 +129,7 @@ impl Relation {
                 let turn = |v: [f32; 3]| [0, 1, 2].map(|i| v[(i + by) % 3]);
                 let moved = spheres.iter().map(|s| Sphere { center: turn(s.center), ..*s }).collect();
                 let Some(new) =
-                    with(moved, turn(scene.light()), mapped(&case.camera, turn, turn), case.asked)
+                    with(moved, turn(scene.light()), mapped(&case.camera, turn, turn), &case.asked)
                 else {
                     return Ok(0);
                 };
@@ -148,10 +153,10 @@ impl Relation {
                         ..*s
                     });
                     let camera = mapped(camera, scale, stay).filter(|_| fits && is_exact(camera.eye()));
-                    with(moved.collect(), scene.light(), camera, case.asked)
+                    with(moved.collect(), scene.light(), camera, &case.asked)
                 } else {
                     let fits = [camera.corner(), camera.du(), camera.dv()].iter().all(|v| is_exact(*v));
-                    with(spheres, scene.light(), mapped(camera, stay, scale).filter(|_| fits), case.asked)
+                    with(spheres, scene.light(), mapped(camera, stay, scale).filter(|_| fits), &case.asked)
                 };
                 // Forms may over- or underflow where the exact tracer does not; and t itself may.
                 let tame = |x: f32| x == 0.0 || (1e-6..1e6).contains(&x.abs());
@@ -194,7 +199,7 @@ impl Relation {
                     case.camera.dv(),
                     size,
                 );
-                let Some(new) = with(spheres, scene.light(), half.ok(), case.asked) else { return Ok(0) };
+                let Some(new) = with(spheres, scene.light(), half.ok(), &case.asked) else { return Ok(0) };
                 let new = last(&new).map_err(|error| self.says(&error))?;
                 let Ok(mut part) = Image::new(size, scene.background()) else { return Ok(0) };
                 for i in 0..part.ids.len() {
@@ -218,7 +223,7 @@ impl Relation {
                 let Asked::Grid { plan, level, workers } = case.asked else { return Ok(0) };
                 let workers = if workers == 1 { 3 } else { 1 };
                 let Some(new) =
-                    with(spheres, scene.light(), Some(case.camera), Asked::Grid { plan, level, workers })
+                    with(spheres, scene.light(), Some(case.camera), &Asked::Grid { plan, level, workers })
                 else {
                     return Ok(0);
                 };

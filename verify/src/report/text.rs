@@ -107,13 +107,17 @@ fn line(row: &[String; 8], widths: &[usize; 8], verdict: Style) -> String {
     format!("{}\n", line.trim_end())
 }
 
-/// What outside witnesses said, who did not judge, and the word for the whole.
+/// What outside witnesses said, why someone was not judged, who did not judge, and the word for the whole.
 fn ending(report: &Report, color: bool) -> String {
     let said: String = report.scenes.iter().flat_map(sentences).map(|line| wrapped(&line) + "\n").collect();
+    let silent = report.scenes.iter().flat_map(|scene| scene.subjects.iter().map(move |subject| (scene, subject)));
+    let silent = silent.filter(|(_, subject)| subject.verdict == Verdict::NotJudged);
+    let why = silent.map(|(scene, subject)| format!("{} on {}: {}", subject.name, scene.name, subject.because));
+    let why: String = why.map(|line| wrapped(&line) + "\n").collect();
     let absent = report.absent.iter().map(|absent| format!("{}: not judged. {}", absent.judge, absent.why));
     let absent: String = absent.map(|line| wrapped(&line) + "\n").collect();
     let verdict = style(report.verdict, color);
-    format!("{said}{absent}{verdict}{} {}{verdict:#}\n", sign(report.verdict), word(report.verdict))
+    format!("{said}{why}{absent}{verdict}{} {}{verdict:#}\n", sign(report.verdict), word(report.verdict))
 }
 
 pub(crate) fn wrapped(line: &str) -> String {

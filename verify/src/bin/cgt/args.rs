@@ -4,6 +4,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use contract::Size;
 use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+use verify::foreign::{Foreign, ForeignError, PROMISES};
 use verify::scenes::frame::Framing;
 
 /// Judge tracers of sphere scenes against exact arithmetic.
@@ -33,6 +36,7 @@ Examples:
   cgt                                   judge all tracers on the bundled molecule
   cgt verify 2juy --frame 3 --plan safe
   cgt verify uniform:5000:1 own.pdb     a generated scene and a file
+  cgt verify --subject-cmd ./mytracer   a tracer of your own, in any language
   cgt render sphereflake:4 flake.png --size 800x600
   cgt report                            all of it on one page, in some minutes
   cgt bench 1hvr --peers embree --threads 1
@@ -71,10 +75,44 @@ pub(crate) enum Command {
     Figures(Figures),
     /// Prove what the kernels do for all inputs, with the solvers that are there (z3, bitwuzla, cvc5)
     Prove(Prove),
-    /// Judge a case again, and tell a pixel of it step by step
+    /// Judge a case again, by its own tracer or by yours, and tell a pixel of it step by step
     Replay(Replay),
     /// List the scenes that have names, and the formats that are read
     Scenes,
+}
+
+/// Tracers of the user's own.
+#[derive(Args, Clone, Debug, Default)]
+pub(crate) struct Own {
+    /// A tracer of your own, in any language: a program that reads scene and rays from its standard input and writes ids and t
+    /// (docs/own-tracer.md); `NAME=COMMAND` gives it another name than the program's
+    #[arg(long = "subject-cmd", value_name = "COMMAND")]
+    commands: Vec<String>,
+    /// What it is held to: the truth, bit for bit, or what rounding can make of it in a form [default: f32-textbook]
+    #[arg(long, value_name = "PROMISE", value_parser = PROMISES.map(|(word, _)| word), requires = "commands")]
+    promise: Option<String>,
+    /// How many seconds it may say nothing while an answer is due
+    #[arg(long, value_name = "SECONDS", default_value_t = 300.0, value_parser = seconds)]
+    patience: f64,
+}
+
+impl Own {
+    /// The one tracer where no more can be asked.
+    pub(crate) fn tracer(&self) -> Result<Option<Arc<Foreign>>, String> {
+        match self.tracers().map_err(|error| error.to_string())?.as_slice() {
+            [] => Ok(None),
+            [one] => Ok(Some(one.clone())),
+            more => Err(format!("one tracer can be asked, not {}", more.len())),
+        }
+    }
+
+    /// The tracers, none of them started.
+    pub(crate) fn tracers(&self) -> Result<Vec<Arc<Foreign>>, ForeignError> {
+        let word = self.promise.as_deref().unwrap_or(PROMISES[0].0);
+        let promise = PROMISES.iter().find(|(known, _)| *known == word).unwrap_or(&PROMISES[0]).1;
+        let patience = Duration::from_secs_f64(self.patience);
+        self.commands.iter().map(|command| Ok(Arc::new(Foreign::new(command, promise, patience)?))).collect()
+    }
 }
 
 const SUBJECTS: [&str; 6] =
@@ -110,9 +148,15 @@ pub(crate) struct Verify {
     /// Frames of an animation, from and to, counted from 0, the last one not among them; the page then has a slider
     #[arg(long, value_name = "A..B", value_parser = range, conflicts_with = "frame")]
     pub(crate) frames: Option<Range<usize>>,
+    /// Of each tracer that is wrong shrink the first frame where it is to the fewest spheres and pixels, and keep it as a case in this
+    /// folder, with its picture and an account; `cgt replay` judges it again
+    #[arg(long, value_name = "FOLDER")]
+    pub(crate) keep: Option<PathBuf>,
     /// Folder of the report; files of the same names in it are replaced
     #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
     pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) own: Own,
     #[command(flatten)]
     pub(crate) view: View,
 }
@@ -143,6 +187,8 @@ pub(crate) struct Report {
     /// Folder of the report, with the data of each chapter beside it; files of the same names in it are replaced
     #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
     pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) own: Own,
 }
 
 /// What a benchmark is of, where no scene is named.
@@ -233,6 +279,8 @@ pub(crate) struct Chart {
     #[arg(long, value_name = "FOLDER", default_value = "cgt-chart")]
     pub(crate) out: PathBuf,
     #[command(flatten)]
+    pub(crate) own: Own,
+    #[command(flatten)]
     pub(crate) view: View,
 }
 
@@ -293,6 +341,8 @@ pub(crate) struct Stability {
     /// Folder for a page that opens offline, stability.html, with the same data in stability.json and stability.csv beside it, and each map as an SVG file
     #[arg(long, value_name = "FOLDER", default_value = "cgt-stability")]
     pub(crate) out: PathBuf,
+    #[command(flatten)]
+    pub(crate) own: Own,
 }
 
 #[derive(Args, Debug)]
@@ -488,6 +538,8 @@ pub(crate) struct Replay {
     /// Folder for the case, its picture (what was promised, what came, the difference) and the account
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) own: Own,
 }
 
 impl View {

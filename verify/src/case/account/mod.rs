@@ -71,7 +71,7 @@ pub fn account(case: &Case, frame: usize, [x, y]: [u32; 2]) -> Result<String, Ca
     if let Asked::Grid { plan, .. } = case.asked {
         walked(&mut out, plan, scene, camera, [x, y]);
     }
-    alone(&mut out, scene, &ray, case.asked);
+    alone(&mut out, case, scene, &ray, i);
     Ok(out)
 }
 
@@ -334,16 +334,21 @@ impl Meeting {
 }
 
 /// What the exact and the tracer's own arithmetic say of each sphere for itself, where either finds a hit.
-fn alone(out: &mut String, scene: &Scene, ray: &Ray, asked: Asked) {
+fn alone(out: &mut String, case: &Case, scene: &Scene, ray: &Ray, i: usize) {
     // The truth is told beside it, so of who promises that the other way to it is taken.
-    let own = match asked.promise().naive() {
+    let own = match case.asked.promise().naive() {
         Naively::Exact => Naively::ExactUnfiltered,
         own => own,
     };
     line(
         out,
         format_args!(
-            "\nalone      each sphere that the ray hits, exactly and in the tracer's arithmetic ({own:?}):"
+            "\nalone      each sphere that the ray hits, exactly and in the tracer's arithmetic ({own:?}){}:",
+            if matches!(case.asked, Asked::Foreign { .. }) {
+                ", and what the tracer itself says of it"
+            } else {
+                ""
+            }
         ),
     );
     let mut shown = 0;
@@ -360,11 +365,12 @@ fn alone(out: &mut String, scene: &Scene, ray: &Ray, asked: Asked) {
             line(
                 out,
                 format_args!(
-                    "  sphere {id} at {} with radius {}: exactly {}, there {}; {}",
+                    "  sphere {id} at {} with radius {}: exactly {}, there {}{}; {}",
                     vector(sphere.center),
                     number(sphere.radius),
                     word(truth),
                     word(naive),
+                    itself(case, one, i),
                     margin(ray, sphere),
                 ),
             );
@@ -374,6 +380,19 @@ fn alone(out: &mut String, scene: &Scene, ray: &Ray, asked: Asked) {
         0 => line(out, format_args!("  none")),
         n if n > MOST => line(out, format_args!("  ({} more)", n - MOST)),
         _ => {}
+    }
+}
+
+/// What a program says of a pixel that has one sphere before it.
+fn itself(case: &Case, one: Scene, i: usize) -> String {
+    if !matches!(case.asked, Asked::Foreign { .. }) {
+        return String::new();
+    }
+    let one = Case { frames: one.into(), ..case.clone() };
+    match one.pictures() {
+        Ok(pictures) if pictures[0].ids[i] == MISS => ", itself a miss".into(),
+        Ok(pictures) => format!(", itself t = {}", number(pictures[0].t[i])),
+        Err(error) => format!(", itself nothing: {error}"),
     }
 }
 

@@ -1,13 +1,14 @@
 //! `cgt chart`: scenes in, every method's speed against its error on the terminal and into files out.
 
-use super::files;
 use super::verify::{framed, load, warn};
+use super::{distinct, files};
 use crate::args::{Chart as Args, or_few};
 use crate::environment::environment;
 use crate::{Failure, progress};
 use optimized::Level;
 use std::process::ExitCode;
 use verify::chart::{Asked, Chart, Distance, SCHEMA_VERSION, measure, page, text};
+use verify::foreign::method;
 use verify::methods::{Method, charted};
 use verify::picture::check_folder;
 use verify::report::Absent;
@@ -28,7 +29,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
 pub(crate) fn chart(args: &Args) -> Result<Chart, Failure> {
     let level = args.level.as_deref().map_or_else(Level::best, Level::named)?;
     let (threads, mut absent) = (args.view.threads(), Vec::<Absent>::new());
-    let methods: Vec<Method> = charted(level, threads, &mut absent);
+    let mut methods: Vec<Method> = charted(level, threads, &mut absent);
+    methods.extend(args.own.tracers()?.iter().map(|tracer| method(tracer, threads)));
+    distinct(methods.iter().map(|method| method.name.as_str()))?;
     let (names, seed) = (or_few(&args.scenes), seed());
     let mut views = Vec::new();
     for word in &names {

@@ -15,8 +15,22 @@ pub(crate) mod spu;
 pub(crate) mod stability;
 pub(crate) mod verify;
 
+use crate::Failure;
+use std::collections::HashSet;
 use std::io::Write;
 use std::process::ExitCode;
+
+/// Tracers are told apart by their names.
+fn distinct<'a>(mut names: impl Iterator<Item = &'a str>) -> Result<(), Failure> {
+    let mut known = HashSet::new();
+    match names.find(|name| !known.insert(*name)) {
+        Some(name) => {
+            Err(format!("two tracers are called `{name}`; --subject-cmd NAME=COMMAND gives another name")
+                .into())
+        }
+        None => Ok(()),
+    }
+}
 
 /// The exit code of a run in which these broke their promise of the truth; each is named on standard error.
 fn kept(broken: &[String]) -> ExitCode {

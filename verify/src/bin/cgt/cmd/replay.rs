@@ -1,5 +1,6 @@
 //! `cgt replay`: a case judged again, and one of its pixels told step by step.
 
+use super::verify::{QUESTIONS, expected};
 use crate::args::Replay as Args;
 use crate::{Failure, say};
 use std::process::ExitCode;
@@ -7,14 +8,18 @@ use verify::case::account::{account, check_pixel};
 use verify::case::folder::keep;
 use verify::case::shrink::shrink;
 use verify::case::{Case, worst};
-
-/// Questions that shrinking may ask.
-const QUESTIONS: u32 = 5_000;
+use verify::subject::Subject;
 
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let place = |error: &dyn std::fmt::Display| format!("`{}`: {error}", args.case.display());
     let bytes = std::fs::read(&args.case).map_err(|error| place(&error))?;
     let mut case = Case::from_json(&bytes).map_err(|error| place(&error))?;
+    if let Some(own) = args.own.tracer()? {
+        // Whoever asks for it wants to know whether it keeps its promise there.
+        if let Some(asked) = own.asked(1) {
+            case = Case { expected: expected(&asked.promise()), asked, ..case };
+        }
+    }
     if args.shrink {
         let verdict = worst(&case.judge()?);
         let same = |smaller: &Case| smaller.judge().is_ok_and(|judged| worst(&judged) == verdict);

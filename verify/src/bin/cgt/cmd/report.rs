@@ -1,7 +1,7 @@
 //! `cgt report`: everything the suite finds out, on one page that opens offline, with the data of each chapter beside it.
 
 use super::verify::{judged, load};
-use super::{ablate, bench, chart, claims, figures, files, stability};
+use super::{ablate, bench, chart, claims, distinct, figures, files, stability};
 use crate::args::{self, or_few};
 use crate::environment::environment;
 use crate::{Failure, progress, say};
@@ -48,8 +48,10 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     let threads = view.threads();
     chapter("pictures");
     let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
-    let subjects = subjects(level);
+    let mut subjects = subjects(level);
+    subjects.extend(args.own.tracers()?.into_iter().map(|own| Box::new(own) as Box<dyn Subject>));
     let subjects: Vec<&dyn Subject> = subjects.iter().map(AsRef::as_ref).collect();
+    distinct(subjects.iter().map(|subject| subject.name()))?;
     for word in &names {
         let (report, set) = judged(word, &view, &subjects, &[])?;
         scenes.push(report);
@@ -132,6 +134,7 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
             sample: 8,
             level: None,
             out: folder.clone(),
+            own: args.own.clone(),
             view: args::View { size: Some(Size::new(chart::SIZE[0], chart::SIZE[1])?), ..view.clone() },
         })?;
         files::data("chart", folder, &charted, Some(charted.csv()?))?;
@@ -145,6 +148,7 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
             rays: args.rays,
             level: None,
             out: folder.clone(),
+            own: args.own.clone(),
         })?;
         files::data("stability", folder, &broken_at, Some(broken_at.csv()?))?;
         broken.extend(charted.broken_promises().into_iter().chain(broken_at.broken_promises()));

@@ -1,12 +1,13 @@
 //! `cgt stability`: where every method breaks, on the terminal and into files out.
 
-use super::files;
 use super::verify::{framed, load, warn};
+use super::{distinct, files};
 use crate::args::{Stability as Args, View};
 use crate::environment::environment;
 use crate::{Failure, progress};
 use optimized::Level;
 use std::process::ExitCode;
+use verify::foreign::method;
 use verify::methods::{Method, swept};
 use verify::picture::{check_folder, write_atomically};
 use verify::report::Absent;
@@ -44,12 +45,18 @@ pub(crate) fn found(args: &Args) -> Result<Stability, Failure> {
     }
     let mut absent: Vec<Absent> = Vec::new();
     // Who is missing is missing everywhere.
-    let all: Vec<String> = swept(None, level, &mut absent).into_iter().map(|method| method.name).collect();
+    let tracers = args.own.tracers()?;
+    let swept = |cells, absent: &mut Vec<Absent>| -> Vec<Method> {
+        let own = tracers.iter().map(|tracer| method(tracer, 1));
+        swept(cells, level, absent).into_iter().chain(own).collect()
+    };
+    let all: Vec<String> = swept(None, &mut absent).into_iter().map(|method| method.name).collect();
+    distinct(all.iter().map(String::as_str))?;
     known(&args.methods, &all, "method")?;
     known(&args.only, &names(), "sweep")?;
     let wanted = |method: &Method| args.methods.is_empty() || args.methods.contains(&method.name);
     let methods =
-        |cells| -> Vec<Method> { swept(cells, level, &mut Vec::new()).into_iter().filter(&wanted).collect() };
+        |cells| -> Vec<Method> { swept(cells, &mut Vec::new()).into_iter().filter(&wanted).collect() };
     let seed = seed();
     let asked = Asked { methods: &methods, level, rays: args.rays, seed, scenes: &scenes, only: &args.only };
     let tick = progress::bar("stability", "values", steps(&asked));

@@ -1,12 +1,17 @@
 //! `cgt verify`: scenes in, verdicts on the terminal and a report folder out.
 
+use super::distinct;
 use crate::args::{EMBREE, Verify, View};
 use crate::environment::{environment, quoted};
 use crate::{Failure, progress, say};
-use contract::{Scene, Size};
+use contract::{Animation, Scene, Size};
 use optimized::Level;
 use std::io::{IsTerminal, Write};
+use std::path::Path;
 use std::process::ExitCode;
+use verify::case::folder::Kept;
+use verify::case::shrink::shrink;
+use verify::case::{self, Case, worst};
 use verify::claims::claims;
 use verify::judge::outside::Witness;
 use verify::picture::check_folder;
@@ -15,17 +20,18 @@ use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::scenes::read::Loaded;
-use verify::subject::{Grid, NAIVE, NamedPlan, Subject};
+use verify::subject::{Grid, NAIVE, NamedPlan, Promise, Subject};
 use verify::verdict::Verdict;
 
 pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     let levels = levels(args)?;
-    let owned = subjects(args, &levels);
+    let owned = subjects(args, &levels)?;
     let subjects: Vec<&dyn Subject> = owned.iter().map(AsRef::as_ref).collect();
+    distinct(subjects.iter().map(|subject| subject.name()))?;
     let (judges, absent) = outside(args);
     let witnesses: Vec<&dyn Witness> = judges.iter().map(AsRef::as_ref).collect();
     check_folder(&args.out)?;
-    let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
+    let (mut scenes, mut pictures, mut kept) = (Vec::new(), Vec::new(), Vec::new());
     for word in &args.scenes {
         // What is not there is told before anything is rendered.
         if let Some(frames) = &args.frames {
@@ -34,6 +40,9 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
         for frame in args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1) {
             let view = View { frame, ..args.view.clone() };
             let (report, set) = judged(word, &view, &subjects, &witnesses)?;
+            if let Some(folder) = &args.keep {
+                keep(word, &view, &subjects, &report, folder, &mut kept)?;
+            }
             scenes.push(report);
             pictures.push(set);
         }
@@ -50,12 +59,18 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     let paths = write(&args.out, &report, &pictures, &[])?;
     let verdict = text(&report, std::io::stdout().is_terminal());
     say(&format!("{verdict}report: {}\n", paths.html.display()))?;
+    for (_, kept) in kept {
+        say(&format!("kept: {}\n", kept.command))?;
+    }
     Ok(match report.verdict {
         Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
         Verdict::Wrong => ExitCode::from(1),
         Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
     })
 }
+
+/// Questions that making a case smaller may ask.
+pub(crate) const QUESTIONS: u32 = 5_000;
 
 /// Judges a frame of a scene.
 pub(crate) fn judged(
@@ -81,6 +96,51 @@ pub(crate) fn judged(
     let named = if view.frame == 0 { word.to_owned() } else { format!("{word}, frame {}", view.frame) };
     let progress = |what: &str, rows| progress::bar(&named, what, rows);
     Ok(run(&frame, subjects, witnesses, view.threads(), &progress)?)
+}
+
+/// Of each tracer that is wrong for the first time the smallest case of it.
+fn keep(
+    word: &str,
+    view: &View,
+    subjects: &[&dyn Subject],
+    report: &SceneReport,
+    folder: &Path,
+    kept: &mut Vec<(String, Kept)>,
+) -> Result<(), Failure> {
+    for (subject, found) in subjects.iter().zip(&report.subjects) {
+        let new = kept.iter().all(|(name, _)| name != subject.name());
+        let Some(asked) = subject.asked(view.threads()) else { continue };
+        if found.verdict != Verdict::Wrong || !new {
+            continue;
+        }
+        let (loaded, scene) = load(word, view.frame)?;
+        let case = Case {
+            frames: Animation::new(vec![scene])?,
+            camera: loaded.camera(&view.framing())?,
+            asked,
+            expected: Verdict::Wrong,
+            pixel: None,
+            why: format!("{} on {word}: {}", subject.name(), found.because),
+        };
+        let tick = progress::bar(subject.name(), "questions to make the case smaller", QUESTIONS);
+        let smaller = shrink(&case, QUESTIONS, &|case| {
+            tick();
+            case.judge().is_ok_and(|judged| worst(&judged) == Verdict::Wrong)
+        });
+        drop(tick);
+        // The file is what will be judged from now on, and is to be kept as a promise, not as a fault.
+        let case = Case { expected: expected(&smaller.asked.promise()), ..smaller };
+        kept.push((subject.name().into(), case::folder::keep(&case, folder, subject.name())?));
+    }
+    Ok(())
+}
+
+/// The verdict on who keeps a promise.
+pub(crate) fn expected(promise: &Promise) -> Verdict {
+    match promise {
+        Promise::Exact => Verdict::Equal,
+        Promise::Rounded(_) | Promise::EqualToNaive(_) => Verdict::WithinBound,
+    }
 }
 
 /// The outside judges that were asked for and are there, and those that will not speak.
@@ -119,9 +179,10 @@ fn levels(args: &Verify) -> Result<Vec<Level>, Failure> {
 }
 
 /// The naive tracers and the plans `fast` and `safe`, or those that were asked for.
-fn subjects(args: &Verify, levels: &[Level]) -> Vec<Box<dyn Subject>> {
+fn subjects(args: &Verify, levels: &[Level]) -> Result<Vec<Box<dyn Subject>>, Failure> {
     let named = |name: &str| args.subjects.iter().chain(&args.plans).any(|n| n == name);
-    let all = args.subjects.is_empty() && args.plans.is_empty();
+    let own = args.own.tracers()?;
+    let all = args.subjects.is_empty() && args.plans.is_empty() && own.is_empty();
     let mut subjects: Vec<Box<dyn Subject>> = Vec::new();
     for naive in NAIVE {
         if all || named(naive.name()) {
@@ -134,7 +195,8 @@ fn subjects(args: &Verify, levels: &[Level]) -> Vec<Box<dyn Subject>> {
             subjects.extend(levels.iter().map(|level| Box::new(at(level)) as Box<dyn Subject>));
         }
     }
-    subjects
+    subjects.extend(own.into_iter().map(|own| Box::new(own) as Box<dyn Subject>));
+    Ok(subjects)
 }
 
 /// A scene's file or maker, and the frame asked for.

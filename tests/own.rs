@@ -1,0 +1,344 @@
+//! Is a tracer in another language judged as any other? The clients of docs/own-tracer.md, sound and with a fault in them, and programs that break
+//! the protocol in every way, are asked by the library and by `cgt`.
+
+#[allow(dead_code, unreachable_pub, reason = "an example of its own")]
+#[path = "../verify/examples/own_tracer.rs"]
+mod own_tracer;
+
+use contract::{Camera, MISS, Scene, Size};
+use serde_json::Value;
+use std::io::{Cursor, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::Arc;
+use std::time::Duration;
+use tempfile::TempDir;
+use verify::case::Case;
+use verify::foreign::{Foreign, ForeignError, PROMISES, serve, wire};
+use verify::judge::judge;
+use verify::scenes::catalogue::Source;
+use verify::scenes::frame::Framing;
+use verify::subject::{NAIVE, Subject};
+use verify::verdict::Verdict;
+
+const CGT: &str = env!("CARGO_BIN_EXE_cgt");
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// A folder from which the repository's own paths can be used, and nothing be left in it.
+fn desk() -> TempDir {
+    let desk = tempfile::tempdir().expect("a temporary folder");
+    for name in ["verify", "tests"] {
+        let linked = std::os::unix::fs::symlink(
+            root().join(name).canonicalize().expect("it is there"),
+            desk.path().join(name),
+        );
+        linked.expect("a link");
+    }
+    desk
+}
+
+fn has(program: &str) -> bool {
+    let there = Command::new(program).arg("--version").output().is_ok();
+    if !there {
+        _ = writeln!(std::io::stderr(), "not judged: a tracer of one's own: {program} is not installed");
+    }
+    there
+}
+
+/// A Python program that is a tracer.
+fn python(folder: &Path, name: &str, text: &str) -> String {
+    let file = folder.join(name);
+    std::fs::write(&file, text).expect("it is written");
+    format!("mine=python3 '{}'", file.display())
+}
+
+fn client() -> String {
+    std::fs::read_to_string(root().join("verify/examples/tracer.py")).expect("it is there")
+}
+
+/// The client with a line changed.
+fn broken(from: &str, to: &str) -> String {
+    let text = client();
+    assert_eq!(text.matches(from).count(), 1, "`{from}`");
+    text.replace(from, to)
+}
+
+fn scene(word: &str, size: [u32; 2]) -> (Scene, Camera) {
+    let loaded = Source::parse(word).and_then(|source| source.load()).expect("generated");
+    let size = Size::new(size[0], size[1]).expect("small");
+    let camera = loaded.camera(&Framing { size: Some(size), ..Framing::default() }).expect("not degenerate");
+    (loaded.animation.frames()[0].clone(), camera)
+}
+
+fn foreign(command: &str) -> Arc<Foreign> {
+    Arc::new(Foreign::new(command, PROMISES[2].1, Duration::from_secs(20)).expect("a command"))
+}
+
+fn cgt(folder: &Path, words: &[&str]) -> Output {
+    Command::new(CGT).args(words).current_dir(folder).env("CGT_SEED", "1").output().expect("it runs")
+}
+
+fn said(output: &Output) -> String {
+    format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
+}
+
+/// The two clients do as rule 5 of the contract says, in f64; so does the reference.
+#[test]
+fn the_clients_have_the_bits_of_the_naive_f64_tracer() {
+    let desk = tempfile::tempdir().expect("a temporary folder");
+    let mut clients = vec![];
+    if has("python3") {
+        clients.push(python(desk.path(), "tracer.py", &client()));
+    }
+    if has("cc") {
+        let program = desk.path().join("tracer");
+        let built = Command::new("cc")
+            .args(["-O2", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror", "-o"])
+            .args([&program, &root().join("verify/examples/tracer.c")])
+            .arg("-lm")
+            .output();
+        let built = built.expect("it runs");
+        assert!(built.status.success(), "{}", said(&built));
+        clients.push(format!("'{}'", program.display()));
+    }
+    for command in clients {
+        let tracer = foreign(&command);
+        let mut hits = 0;
+        // One process answers all of them.
+        for (word, size) in [("uniform:60:1", [61, 37]), ("sphereflake:1", [40, 41]), ("uniform:1:3", [1, 1])]
+        {
+            let (scene, camera) = scene(word, size);
+            let own = tracer.render(&scene, &camera, 1, &|| ()).expect("a picture").image;
+            let naive = NAIVE[0].render(&scene, &camera, 1, &|| ()).expect("a picture").image;
+            assert_eq!(own.ids, naive.ids, "{command} on {word}");
+            let bits = |t: &[f32]| t.iter().map(|t| t.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&own.t), bits(&naive.t), "{command} on {word}");
+            assert_eq!(own.rgba, naive.rgba, "{command} on {word}");
+            hits += own.ids.iter().filter(|id| **id != MISS).count();
+        }
+        assert!(hits > 500, "hardly a hit: {hits}");
+    }
+}
+
+#[test]
+fn a_fault_is_found_and_shown_and_kept_as_the_smallest_case() {
+    if !has("python3") {
+        return;
+    }
+    let desk = desk();
+    // A sphere nearer by less than a thousandth does not count.
+    let fault = broken("0 < t < best[1]", "0 < t < 0.999 * best[1]");
+    let command = python(desk.path(), "faulty.py", &fault);
+    let words = ["verify", "uniform:500:1", "--size", "96x54", "--promise", "f64", "--keep", "cases"];
+    let output = cgt(desk.path(), &[&words[..], &["--subject-cmd", &command]].concat());
+    let text = said(&output);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    let report: Value =
+        serde_json::from_slice(&std::fs::read(desk.path().join("cgt-report/report.json")).expect("a report"))
+            .expect("JSON");
+    let subject = &report["scenes"][0]["subjects"][0];
+    assert_eq!(subject["name"], "mine");
+    assert_eq!(subject["verdict"], "Wrong", "{subject}");
+    let wrong = subject["comparison"]["wrong_ids"].as_u64().expect("a number");
+    assert!(wrong > 0, "{subject}");
+    let account = subject["first_wrong"].as_str().expect("an account");
+    assert!(account.contains("--subject-cmd \"mine=python3 "), "{account}");
+    let picture = subject["picture"].as_str().expect("a triptych");
+    assert!(
+        desk.path().join("cgt-report").join(picture).metadata().is_ok_and(|file| file.len() > 1000),
+        "{picture}"
+    );
+    // Two spheres are needed to see one of them in the other's place.
+    let file = desk.path().join("cases/mine.json");
+    let case = Case::from_json(&std::fs::read(&file).expect("a case")).expect("readable");
+    assert_eq!(case.frames.frames()[0].spheres().len(), 2, "{text}");
+    assert_eq!(case.camera.size().pixels(), 1, "{text}");
+    assert!(desk.path().join("cases/mine.png").exists());
+
+    let replay = |more: &[&str]| cgt(desk.path(), &[&["replay", "cases/mine.json"], more].concat());
+    let alone = replay(&[]);
+    assert_eq!(alone.status.code(), Some(1), "{}", said(&alone));
+    assert!(said(&alone).contains("--subject-cmd"), "{}", said(&alone));
+    let again = replay(&["--subject-cmd", &command, "--promise", "f64"]);
+    assert_eq!(again.status.code(), Some(1), "{}", said(&again));
+    assert!(said(&again).contains("NOT as it should be"), "{}", said(&again));
+    assert!(said(&again).contains("itself t ="), "{}", said(&again));
+    let mended = python(desk.path(), "sound.py", &client());
+    let mended = replay(&["--subject-cmd", &mended, "--promise", "f64"]);
+    assert_eq!(mended.status.code(), Some(0), "{}", said(&mended));
+}
+
+/// Each way to break the protocol has its own words.
+#[test]
+fn a_program_that_breaks_the_protocol_is_named_and_is_no_picture() {
+    if !has("python3") {
+        return;
+    }
+    let desk = tempfile::tempdir().expect("a temporary folder");
+    let (scene, camera) = scene("uniform:5:1", [8, 4]);
+    let failure = |name: &str, text: &str| {
+        let command = python(desk.path(), name, text);
+        let tracer = Foreign::new(&command, PROMISES[0].1, Duration::from_millis(700)).expect("a command");
+        let error = Arc::new(tracer).render(&scene, &camera, 1, &|| ()).expect_err(name);
+        *error.downcast::<ForeignError>().expect("one of its own")
+    };
+    let out = "out.write(b\"d\" +";
+    let read_all = "import sys; sys.stdin.buffer.read(68 + 5 * 16 + 32 * 24); o = sys.stdout.buffer; ";
+    assert!(matches!(
+        failure("ends.py", "import sys; sys.exit(7)"),
+        ForeignError::Ended { how, got: 0, due: 1, .. } if how.contains('7')
+    ));
+    assert!(matches!(
+        failure(
+            "short.py",
+            &format!(
+                "{read_all} o.write(b'r'); o.flush(); sys.stdin.buffer.read(1); o.write(b'd' + bytes(100))"
+            )
+        ),
+        ForeignError::Ended { got: 100, due: 256, .. }
+    ));
+    assert!(matches!(
+        failure("silent.py", "import time; time.sleep(60)"),
+        ForeignError::Silent { got: 0, .. }
+    ));
+    assert!(matches!(
+        failure("chatty.py", &broken(out, "print('tracing', flush=True), out.write(b\"d\" +")),
+        ForeignError::Unexpected { said, due: 'd', .. } if said.starts_with("tracing")
+    ));
+    let refusing = format!("{read_all} o.write(b'e' + (9).to_bytes(4, 'little') + b'too large')");
+    assert_eq!(failure("refuses.py", &refusing), ForeignError::Refused { said: "too large".into() });
+    // What is left over is found before the next frame.
+    let tracer = foreign(&python(
+        desk.path(),
+        "more.py",
+        &broken("out.flush()\n", "out.flush() if False else out.write(bytes(3)), out.flush()\n"),
+    ));
+    tracer.render(&scene, &camera, 1, &|| ()).expect("the first frame is whole");
+    std::thread::sleep(Duration::from_millis(100));
+    let error = tracer.render(&scene, &camera, 1, &|| ()).expect_err("three bytes too many");
+    assert_eq!(error.downcast_ref(), Some(&ForeignError::Surplus { bytes: 3 }));
+    // After a failure another process is asked.
+    assert!(tracer.render(&scene, &camera, 1, &|| ()).is_ok());
+
+    let refused = |command: &str| Foreign::new(command, PROMISES[0].1, Duration::ZERO).expect_err(command);
+    assert!(matches!(refused("a 'b"), ForeignError::Words { .. }));
+    assert_eq!(refused("name="), ForeignError::Empty);
+    let absent = foreign("/nowhere/tracer --fast").render(&scene, &camera, 1, &|| ()).expect_err("not there");
+    assert!(
+        matches!(absent.downcast_ref(), Some(ForeignError::Start { program, .. }) if program == "/nowhere/tracer")
+    );
+}
+
+/// Answers that no tracer can mean are wrong, not errors and not right.
+#[test]
+fn ids_of_no_sphere_and_t_that_is_no_number_are_wrong() {
+    if !has("python3") {
+        return;
+    }
+    let desk = tempfile::tempdir().expect("a temporary folder");
+    let (scene, camera) = scene("uniform:5:1", [24, 16]);
+    let truth =
+        reference::Tracer::new(reference::Arithmetic::Exact).render(&scene, &camera).expect("small").image;
+    for (name, from, to, wrong) in [
+        ("beyond.py", "(i, t) if", "(i + 5, t) if", true),
+        ("nan.py", "[t for _, t in hits]", "[math.nan for _ in hits]", true),
+        ("t-of-misses.py", "(0xFFFFFFFF, math.inf)", "(0xFFFFFFFF, 1e30)", false),
+    ] {
+        let tracer = foreign(&python(desk.path(), name, &broken(from, to)));
+        let image = tracer.render(&scene, &camera, 1, &|| ()).expect("a picture").image;
+        let verdict = judge(&scene, &camera, &truth, &image, tracer.promise(), None).verdict;
+        assert_eq!(verdict == Verdict::Wrong, wrong, "{name}: {verdict:?}");
+        assert!(image.ids.iter().any(|id| *id != MISS), "nothing was at stake");
+    }
+}
+
+#[test]
+fn every_command_of_the_page_runs() {
+    if !has("python3") {
+        return;
+    }
+    let page = std::fs::read_to_string(root().join("docs/own-tracer.md")).expect("it is there");
+    let desk = desk();
+    let commands: Vec<&str> =
+        page.lines().filter(|line| line.starts_with("cgt ") && line.contains("tracer.py")).collect();
+    assert!(commands.len() >= 5, "{commands:?}");
+    for command in commands {
+        let words = shlex::split(command).expect("a command");
+        let words: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
+        let output = cgt(desk.path(), &words);
+        assert_eq!(output.status.code(), Some(0), "{command}\n{}", said(&output));
+        assert!(said(&output).contains("mine"), "{command}\n{}", said(&output));
+    }
+    let table = std::fs::read_to_string(desk.path().join("cgt-chart/chart.csv")).expect("a table");
+    let row = table.lines().find(|line| line.contains(",mine,foreign,")).expect("a row of its own");
+    let cells: Vec<&str> = row.split(',').collect();
+    assert!(cells[9].parse::<f64>().is_ok_and(|ns| ns > 10.0), "{row}");
+    let report: Value =
+        serde_json::from_slice(&std::fs::read(desk.path().join("cgt-report/report.json")).expect("a report"))
+            .expect("JSON");
+    let names =
+        report["scenes"][0]["subjects"].as_array().expect("subjects").iter().map(|subject| &subject["name"]);
+    assert!(names.into_iter().any(|name| name == "mine"), "{report}");
+    // What stands in the page is what is read.
+    for (byte, what) in [
+        (wire::READ, "it has read all of it"),
+        (wire::GO, "go, the clock runs"),
+        (wire::DONE, "done, the clock stops"),
+    ] {
+        assert!(page.contains(&format!("| 1 | `{}`: {what} |", char::from(byte))), "{what}");
+    }
+}
+
+#[test]
+fn names_and_options_that_make_no_sense_are_refused() {
+    let desk = tempfile::tempdir().expect("a temporary folder");
+    for (words, part) in [
+        (
+            &["verify", "--subject", "naive-f64", "--subject-cmd", "naive-f64=true"][..],
+            "two tracers are called",
+        ),
+        (&["verify", "--promise", "f64"], "--subject-cmd"),
+        (&["verify", "--subject-cmd", "'open"], "quotation"),
+        (&["chart", "--subject-cmd", "fast=true"], "two tracers are called `fast`"),
+        (&["stability", "--subject-cmd", "paper=true"], "two tracers are called `paper`"),
+    ] {
+        let output = cgt(desk.path(), words);
+        assert_eq!(output.status.code(), Some(2), "{words:?}: {}", said(&output));
+        assert!(said(&output).contains(part), "{words:?}: {}", said(&output));
+    }
+    let output = cgt(desk.path(), &["verify", "uniform:5:1", "--size", "8x8", "--subject-cmd", "true"]);
+    assert_eq!(output.status.code(), Some(3), "{}", said(&output));
+    assert!(said(&output).contains("Gave no picture: it ended (exit status: 0)"), "{}", said(&output));
+}
+
+/// The example implements the trait; over the pipe it is the same tracer.
+#[test]
+fn a_rust_tracer_is_judged_directly_and_as_a_program() {
+    let (scene, camera) = scene("uniform:100:1", [33, 22]);
+    let own = own_tracer::Own;
+    let image = own.render(&scene, &camera, 1, &|| ()).expect("a picture").image;
+    let truth =
+        reference::Tracer::new(reference::Arithmetic::Exact).render(&scene, &camera).expect("small").image;
+    assert_ne!(judge(&scene, &camera, &truth, &image, own.promise(), None).verdict, Verdict::Wrong);
+    let mut question = wire::question(&scene, &camera).expect("small");
+    question.push(wire::GO);
+    let mut answer = Vec::new();
+    serve(&own, 1, &mut Cursor::new([question.clone(), question].concat()), &mut answer).expect("served");
+    let (read, done) = ([wire::READ], [wire::DONE]);
+    let ids: Vec<u8> = image.ids.iter().flat_map(|id| id.to_le_bytes()).collect();
+    let t: Vec<u8> = image.t.iter().flat_map(|t| t.to_le_bytes()).collect();
+    let once = [&read[..], &done, &ids, &t].concat();
+    assert_eq!(answer, [once.clone(), once].concat());
+    // A stream that is cut is no question.
+    let cut = wire::question(&scene, &camera).expect("small");
+    for length in [3, 19, 60, 100, cut.len() - 1] {
+        let ended = wire::asked(&mut Cursor::new(&cut[..length]));
+        assert!(
+            if length == 3 { ended.is_ok_and(|asked| asked.is_none()) } else { ended.is_err() },
+            "{length}"
+        );
+    }
+}
