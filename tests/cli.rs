@@ -479,6 +479,41 @@ fn help_is_enough_for_a_stranger() {
     assert_eq!((version.code, version.out), (0, format!("cgt {}\n", env!("CARGO_PKG_VERSION"))));
 }
 
+/// Shells and `man` learn of every subcommand and its options.
+#[test]
+fn shells_and_man_know_all_of_it() {
+    let desk = Desk::new();
+    let help = desk.run(&["--help"]).out;
+    let listed = help.split("Commands:").nth(1).and_then(|text| text.split("\n\n").next()).expect("commands");
+    let names: Vec<&str> =
+        listed.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next()).collect();
+    let names: Vec<&str> = names.into_iter().filter(|name| !["", "help"].contains(name)).collect();
+    assert!(names.contains(&"verify") && names.contains(&"replay") && names.len() > 10, "{names:?}");
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = desk.run(&["completions", shell]);
+        assert_eq!((script.code, script.err.as_str()), (0, ""), "{shell}");
+        let missing: Vec<_> = names.iter().filter(|name| !script.out.contains(**name)).collect();
+        assert!(missing.is_empty(), "{shell} does not know {missing:?}");
+        assert!(script.out.contains("subject-cmd"), "{shell}");
+    }
+    let parsed = Command::new("bash").arg("-n").stdin(Stdio::piped()).spawn().and_then(|mut bash| {
+        let script = desk.run(&["completions", "bash"]).out;
+        bash.stdin.take().map_or(Ok(()), |mut stdin| stdin.write_all(script.as_bytes()))?;
+        bash.wait()
+    });
+    assert!(parsed.is_ok_and(|status| status.success()), "bash cannot read its completions");
+    let pages = desk.run(&["man", "man1"]);
+    assert_eq!((pages.code, pages.err.as_str()), (0, ""));
+    for name in &names {
+        let page = std::fs::read_to_string(desk.path(&format!("man1/cgt-{name}.1"))).expect("a page");
+        assert!(page.contains(&format!(".TH cgt-{name} 1")), "{name}: {page:.200}");
+        assert!(page.contains("DESCRIPTION") && page.contains("SYNOPSIS"), "{name}");
+    }
+    let page = std::fs::read_to_string(desk.path("man1/cgt.1")).expect("a page");
+    assert!(page.contains("Exit codes"), "{page}");
+    assert_eq!(files(&desk.path("man1")).len(), names.len() + 1);
+}
+
 /// A committed case: as it should be, with a pixel of choice, made smaller, kept; and what is no case, or no pixel of it.
 #[test]
 fn a_case_is_replayed_step_by_step() {

@@ -11,7 +11,7 @@ use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use verify::case::Case;
 use verify::foreign::{Foreign, ForeignError, PROMISES, serve, wire};
@@ -230,6 +230,47 @@ fn a_program_that_breaks_the_protocol_is_named_and_is_no_picture() {
     assert!(
         matches!(absent.downcast_ref(), Some(ForeignError::Start { program, .. }) if program == "/nowhere/tracer")
     );
+}
+
+/// A tracer that is slow in reading is not slow in tracing: what passes before `g` is not its time, all that passes after it is.
+#[test]
+fn the_clock_runs_from_go_to_done() {
+    if !has("python3") {
+        return;
+    }
+    let desk = tempfile::tempdir().expect("a temporary folder");
+    let (scene, camera) = scene("uniform:5:1", [8, 4]);
+    let sleep = "__import__('time').sleep(0.3)";
+    for (name, from, to, counts) in [
+        ("reads.py", "out.write(b\"r\")", format!("{sleep}, out.write(b\"r\")"), false),
+        ("traces.py", "out.write(b\"d\" +", format!("{sleep}, out.write(b\"d\" +"), true),
+    ] {
+        let tracer = foreign(&python(desk.path(), name, &broken(from, &to)));
+        let start = Instant::now();
+        let took = tracer.render(&scene, &camera, 1, &|| ()).expect("a picture").took.expect("it is timed");
+        let left = start.elapsed() - took;
+        // Both waits are at least that long on any machine.
+        assert!(
+            if counts { took } else { left } >= Duration::from_millis(300),
+            "{name}: {took:?}, else {left:?}"
+        );
+    }
+}
+
+/// Cases that are in the repository can be asked of any tracer; what the paper's plan does there it need not do.
+#[test]
+fn a_case_of_others_is_asked_of_ones_own() {
+    if !has("python3") {
+        return;
+    }
+    let desk = desk();
+    let command = python(desk.path(), "tracer.py", &client());
+    for name in ["paper-eight-corners-miss-the-middle", "a-tangent-hits", "equal-roots"] {
+        let file = format!("tests/cases/{name}.json");
+        let output = cgt(desk.path(), &["replay", &file, "--subject-cmd", &command, "--promise", "f64"]);
+        assert_eq!(output.status.code(), Some(0), "{name}: {}", said(&output));
+        assert!(said(&output).contains("as it should be (WithinBound)"), "{name}: {}", said(&output));
+    }
 }
 
 /// Answers that no tracer can mean are wrong, not errors and not right.

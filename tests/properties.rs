@@ -2,20 +2,16 @@
 //! Each run prints its seed and what was at stake, and has no verdict if that was too little. `CGT_PROPERTY_CASES` sets how many cases
 //! each property draws.
 
+use verify::properties::Property;
 use verify::properties::relations::RELATIONS;
 use verify::properties::stakes::Stakes;
-use verify::properties::{certain, pictures, relations, swarms, wild};
 use verify::seed::{count, seed};
 
 /// Runs a property and asks whether enough was at stake.
-fn hold(
-    name: &str,
-    everyday: u64,
-    least: &[(&str, u64)],
-    property: impl Fn(u64, u64) -> Result<Stakes, String>,
-) {
+fn hold(everyday: u64, least: &[(&str, u64)], property: Property) {
+    let name = property.word();
     let (seed, cases) = (seed(), count("CGT_PROPERTY_CASES", everyday));
-    let stakes = property(seed, cases).unwrap_or_else(|account| panic!("{account}\nCGT_SEED={seed}"));
+    let stakes = property.hold(seed, cases).unwrap_or_else(|account| panic!("{account}\nCGT_SEED={seed}"));
     eprintln!("{name}: CGT_SEED={seed}, {cases} cases: {stakes}");
     // Of longer runs as much more is asked.
     let least: Vec<_> = least.iter().map(|(what, n)| (*what, n * cases.div_ceil(everyday))).collect();
@@ -40,7 +36,7 @@ fn what_integers_know_is_what_every_tracer_says() {
         ("pictures of the reference", 15_000),
         ("pictures of the grid tracer", 8_000),
     ];
-    hold("certain", 4_000, &least, certain);
+    hold(4_000, &least, Property::Certain);
 }
 
 #[test]
@@ -72,7 +68,7 @@ fn no_promise_is_broken_on_directed_scenes() {
         ("frames refused", 5),
         ("frames within the bound of rounding", 300),
     ];
-    hold("pictures", 2_500, &least, pictures);
+    hold(2_500, &least, Property::Pictures);
 }
 
 #[test]
@@ -82,7 +78,7 @@ fn no_promise_is_broken_among_hundreds_of_spheres() {
         ("hits", 3_000),
         ("spheres in several cells", 20_000),
     ];
-    hold("swarms", 400, &least, swarms);
+    hold(400, &least, Property::Swarms);
 }
 
 #[test]
@@ -95,11 +91,11 @@ fn no_promise_is_broken_on_any_finite_numbers() {
         ("frames beyond a form's range", 50),
         ("frames refused", 10),
     ];
-    hold("wild", 1_500, &least, wild);
+    hold(1_500, &least, Property::Wild);
 }
 
 #[test]
 fn a_changed_case_changes_its_picture_as_it_must() {
     let least = RELATIONS.map(|relation| (relation.name(), 4_000));
-    hold("relations", 800, &least, relations);
+    hold(800, &least, Property::Relations);
 }

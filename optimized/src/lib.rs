@@ -84,7 +84,27 @@ use frame::Frame;
 use grid::Memory;
 use machine::Machine;
 
-/// A grid tracer with its plan, level and number of workers chosen.
+/// A grid tracer with its plan, level and number of workers chosen. Nothing is kept outside it, and nothing printed.
+///
+/// ```
+/// use contract::{Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
+/// use optimized::{Level, Plan, Tracer};
+///
+/// // A ball that falls, frame by frame.
+/// let ball = |y| Sphere { center: [0.0, y, 0.0], radius: 1.0, color: [200, 80, 40] };
+/// let frames = [3.0, 0.0, -3.0].map(|y| Scene::new(vec![ball(y)], [0, 0, 0], DEFAULT_LIGHT));
+/// let size = Size::new(64, 64)?;
+/// let camera = Camera::new([0.0, 0.0, 5.0], [-1.0, 1.0, -1.0], [1.0 / 32.0, 0.0, 0.0], [0.0, -1.0 / 32.0, 0.0], size)?;
+/// let mut session = Tracer::new(Plan::fast(), Level::best()?).workers(2).session()?;
+/// let mut rows = Vec::new();
+/// for scene in frames {
+///     let rendering = session.render(&scene?, &camera)?;
+///     rows.push(rendering.image.ids.iter().position(|id| *id == 0).map(|i| i / 64));
+/// }
+/// // Its upper rim comes down.
+/// assert!(rows[0].is_some() && rows[0] < rows[1] && rows[1] < rows[2]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Tracer {
     plan: Plan,

@@ -6,7 +6,7 @@
 //! the feature of that name). How: [`judge`] by bits and by error bounds and by an outside witness
 //! (`embree`, behind the feature of that name), [`visible`] from inside the grid tracer, [`bounds`], [`margins`] and [`rounding`] on floats
 //! so [`small`] or so [`few`] of bits that all inputs can be tried, [`cells`] on all f32, [`fuzzed`] on any bytes, [`prove`] by solvers
-//! for all inputs; a [`verdict`] is what they say. [`run`] does it all for one frame, a [`case`] is a failure that anyone can run again, [`bench`](mod@bench) says how
+//! for all inputs; a [`verdict`] is what they say. [`run`] does it all for one frame, a [`case`] is a failure that anyone can run again, a [`campaign`] as many scenes as many machines have time for, [`bench`](mod@bench) says how
 //! fast, [`spu`] how fast on the paper's processor. [`methods`] are all ways to answer rays: [`chart`] has their speed against their error, [`stability`] where each
 //! breaks, [`ablation`] what each choice of a plan buys, [`advice`] which to take. [`claims`], [`paper`] with what the paper claims, [`figures`], [`picture`] and [`report`] show it.
 
@@ -45,6 +45,7 @@ pub mod run;
 
 pub mod case;
 
+pub mod campaign;
 pub mod properties;
 
 pub mod bench;

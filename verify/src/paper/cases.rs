@@ -14,7 +14,7 @@ macro_rules! kept {
     ($constant:ident, $name:literal) => {
         pub(super) const $constant: Kept = Kept {
             name: concat!("tests/cases/", $name, ".json"),
-            bytes: include_bytes!(concat!("../../../tests/cases/", $name, ".json")),
+            bytes: include_bytes!(concat!("../../bundled/", $name, ".json")),
         };
     };
 }

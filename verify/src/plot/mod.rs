@@ -1,7 +1,8 @@
 //! Charts as inline SVG that takes its colours from the page: lines over an axis ([`lines`]), points by speed and error
-//! ([`scatter`]), and rows of cells ([`heat`]). Values come in, an `<svg>` element goes out; where a value of zero is possible it has a
+//! ([`scatter`]), bars ([`bars`](mod@bars)) and rows of cells ([`heat`]). Values come in, an `<svg>` element goes out; where a value of zero is possible it has a
 //! place of its own on a logarithmic axis ([`scale`]).
 
+pub(crate) mod bars;
 pub(crate) mod heat;
 pub(crate) mod lines;
 pub(crate) mod scale;

@@ -1,8 +1,8 @@
 //! Properties: cases drawn by proptest, each held to what must be true of it.
 //!
-//! Two moods. *Certain* ([`certain`]): integers, where answers are known without any tracer and all tracers must have them to the last
-//! bit. *Anything*: [`pictures`] has directed recipes ([`recipe`]) and any finite f32 judged against the exact picture,
-//! [`relations()`] holds a tracer against itself. A run gives what was at stake ([`stakes`]), and says nothing if that was too little.
+//! Two moods. *Certain* ([`Property::Certain`]): integers, where answers are known without any tracer and all tracers must have them to the
+//! last bit. *Anything*: directed recipes ([`recipe`]) and any finite f32 judged against the exact picture, and
+//! [relations](Property::Relations) of a tracer with itself. A run gives what was at stake ([`stakes`]), and says nothing if that was too little.
 //!
 //! What fails is made simpler twice: its recipe by proptest, its numbers by [`crate::case::shrink`]; then it is kept as a case.
 
@@ -37,12 +37,13 @@ use rayon::prelude::*;
 use recipe::{ARITHMETICS, Recipe};
 use reference::Arithmetic as Naively;
 use relations::RELATIONS;
+use serde::{Deserialize, Serialize};
 use stakes::Stakes;
 use std::cell::RefCell;
 use std::fmt::Debug;
 
 /// Cases that one runner draws.
-const CHUNK: u64 = 16;
+pub const CHUNK: u64 = 16;
 /// Questions that shrinking may ask.
 const QUESTIONS: u32 = 4_000;
 
@@ -61,48 +62,136 @@ impl Failure {
     }
 }
 
-/// Draws so many and holds each to a property; what was at stake.
-///
-/// # Errors
-/// The first failure, made simpler by proptest.
-fn run<T: Clone + Debug + Send>(
+/// Draws a chunk of cases and holds each to a property: what was at stake until the first failure, which proptest has made simpler.
+fn chunk<T: Clone + Debug>(
     seed: u64,
-    cases: u64,
-    strategy: impl Fn() -> BoxedStrategy<T> + Sync,
-    check: impl Fn(&T) -> Result<Stakes, Failure> + Sync,
-) -> Result<Stakes, Failure> {
-    let chunks = (0..cases.div_ceil(CHUNK)).into_par_iter().map(|chunk| {
-        let config = Config {
-            cases: u32::try_from(CHUNK).expect("small"),
-            failure_persistence: None,
-            max_shrink_iters: 300,
-            ..Config::default()
-        };
-        let bytes: [u8; 32] = generator(seed, chunk).random();
-        let mut runner = TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes));
-        let (stakes, failure) = (RefCell::new(Stakes::default()), RefCell::new(None));
-        let outcome = runner.run(&strategy(), |drawn| match check(&drawn) {
-            Ok(found) => {
+    chunk: u64,
+    strategy: &BoxedStrategy<T>,
+    check: impl Fn(&T) -> Result<Stakes, Failure>,
+) -> (Stakes, Option<Failure>) {
+    let config = Config {
+        cases: u32::try_from(CHUNK).expect("small"),
+        failure_persistence: None,
+        max_shrink_iters: 300,
+        ..Config::default()
+    };
+    let bytes: [u8; 32] = generator(seed, chunk).random();
+    let mut runner = TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &bytes));
+    let (stakes, failure) = (RefCell::new(Stakes::default()), RefCell::new(None));
+    let outcome = runner.run(strategy, |drawn| match check(&drawn) {
+        Ok(found) => {
+            // What is tried while it is made simpler is not counted.
+            if failure.borrow().is_none() {
                 let sum = stakes.borrow().clone().and(&found);
                 stakes.replace(sum);
-                Ok(())
             }
-            Err(failed) => {
-                let message = failed.message.clone();
-                failure.replace(Some(failed));
-                Err(TestCaseError::fail(message))
-            }
-        });
-        match outcome {
-            Ok(()) => Ok(stakes.into_inner()),
-            // The last that failed is the simplest, unless what failed is proptest itself, or a panic.
-            Err(TestError::Fail(why, drawn)) => Err(failure.into_inner().unwrap_or_else(|| {
-                panic!("{why}: {drawn:?}");
-            })),
-            Err(TestError::Abort(why)) => panic!("nothing could be drawn: {why}"),
+            Ok(())
+        }
+        Err(failed) => {
+            let message = failed.message.clone();
+            failure.replace(Some(failed));
+            Err(TestCaseError::fail(message))
         }
     });
-    chunks.try_reduce(Stakes::default, |a, b| Ok(a.and(&b)))
+    let failure = match outcome {
+        Ok(()) => None,
+        // The last that failed is the simplest, unless what failed is proptest itself, or a panic.
+        Err(TestError::Fail(why, drawn)) => Some(failure.into_inner().unwrap_or_else(|| {
+            panic!("{why}: {drawn:?}");
+        })),
+        Err(TestError::Abort(why)) => panic!("nothing could be drawn: {why}"),
+    };
+    (stakes.into_inner(), failure)
+}
+
+/// A property of whatever is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Property {
+    /// What is known of lattices ([`Lattice`]), by every tracer: the naive ones in each of their arithmetics, and the grid tracer with a
+    /// drawn plan in those that have the answer.
+    Certain,
+    /// Directed recipes, by any plan, level, number of workers and arithmetic, and naive tracers: the judge must find no promise broken.
+    Pictures,
+    /// The same with hundreds of spheres, by exact plans: what a tile does only where one round does not hold its candidates.
+    Swarms,
+    /// Any finite numbers for spheres and camera.
+    Wild,
+    /// Metamorphic relations of [`relations::Relation`], of exact plans mostly.
+    Relations,
+}
+
+impl Property {
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Certain, Self::Pictures, Self::Swarms, Self::Wild, Self::Relations];
+
+    /// Its name.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Certain => "certain",
+            Self::Pictures => "pictures",
+            Self::Swarms => "swarms",
+            Self::Wild => "wild",
+            Self::Relations => "relations",
+        }
+    }
+
+    /// Draws so many cases and holds each to it; what was at stake.
+    ///
+    /// # Errors
+    /// The account of the first failure, as [`told`] gives it.
+    pub fn hold(self, seed: u64, cases: u64) -> Result<Stakes, String> {
+        let chunks = (0..cases.div_ceil(CHUNK)).into_par_iter().map(|chunk| match self.drawn(seed, chunk) {
+            (stakes, None) => Ok(stakes),
+            (_, Some(failure)) => Err(failure),
+        });
+        let stakes = chunks.try_reduce(Stakes::default, |a, b| Ok(a.and(&b)));
+        stakes.map_err(|failure| told(self.word(), &failure, &|case| self.fails(case)))
+    }
+
+    /// The [`CHUNK`] cases of a seed's chunk: what was at stake, and the first that fails.
+    #[must_use]
+    pub fn drawn(self, seed: u64, chunk: u64) -> (Stakes, Option<Failure>) {
+        let of_recipe = |check: &dyn Fn(&Case) -> Result<Stakes, Failure>,
+                         strategy: BoxedStrategy<Recipe>| {
+            self::chunk(seed, chunk, &strategy, |recipe| {
+                place::case(recipe).map_or(Ok(none()), |case| check(&case))
+            })
+        };
+        match self {
+            Self::Certain => {
+                let plans = recipe::plan(&ARITHMETICS[..1]);
+                let strategy = (lattice(), plans, prop::sample::select(Level::available()), 1u8..=3).boxed();
+                self::chunk(seed, chunk, &strategy, certain)
+            }
+            Self::Pictures => of_recipe(&judged, recipe::recipe(recipe::ball(), 14, 2, &ARITHMETICS).boxed()),
+            Self::Swarms => {
+                of_recipe(&judged, recipe::recipe(recipe::ball(), 4, 100, &ARITHMETICS[..1]).boxed())
+            }
+            Self::Wild => {
+                let vector = || any::<[u32; 3]>().prop_map(|v| v.map(finite));
+                let camera = [vector(), vector(), vector(), vector()];
+                let strategy = (recipe::recipe(recipe::wild(), 6, 0, &ARITHMETICS), camera).boxed();
+                self::chunk(seed, chunk, &strategy, wild)
+            }
+            Self::Relations => of_recipe(
+                &|case| related(case, seed),
+                recipe::recipe(recipe::ball(), 10, 2, &ARITHMETICS[..3]).boxed(),
+            ),
+        }
+    }
+
+    /// Whether a case breaks it, as a failure of it is made smaller.
+    #[must_use]
+    pub fn fails(self, case: &Case) -> bool {
+        match self {
+            // What integers know of a lattice is lost once it is another scene.
+            Self::Certain => case.judge().is_ok_and(|judged| worst(&judged) == Verdict::Wrong),
+            Self::Pictures | Self::Swarms | Self::Wild => judged(case).is_err(),
+            Self::Relations => related(case, 0).is_err(),
+        }
+    }
 }
 
 /// Shrinks a failure, keeps it in [`folder()`], and says what is wrong, how it looks and how to run it again.
@@ -169,6 +258,10 @@ pub fn judged(case: &Case) -> Result<Stakes, Failure> {
         );
         let scene = &case.frames.frames()[frame];
         stakes.add_frame(scene, &case.camera, &judged.promised);
+        stakes.bin("spheres of a scene", scene.spheres().len() as u64);
+        if let Some(comparison) = &judged.judgement.comparison {
+            stakes.bin("largest error of t in a frame, ulp", comparison.t_ulp.max);
+        }
     }
     if let Asked::Grid { plan, level, workers } = case.asked {
         let scene = &case.frames.frames()[0];
@@ -185,50 +278,13 @@ pub fn judged(case: &Case) -> Result<Stakes, Failure> {
     Ok(stakes)
 }
 
-/// Directed recipes, by any plan, level, number of workers and arithmetic, and naive tracers: the judge must find no promise broken.
-///
-/// # Errors
-/// The account of a failure, as [`told`] gives it.
-pub fn pictures(seed: u64, cases: u64) -> Result<Stakes, String> {
-    of_recipes(
-        "picture",
-        seed,
-        cases,
-        &|| recipe::recipe(recipe::ball(), 14, 2, &ARITHMETICS).boxed(),
-        &judged,
-    )
-}
-
-/// The same with hundreds of spheres, by exact plans: what a tile does only where one round does not hold its candidates.
-///
-/// # Errors
-/// The account of a failure.
-pub fn swarms(seed: u64, cases: u64) -> Result<Stakes, String> {
-    let strategy = || recipe::recipe(recipe::ball(), 4, 100, &ARITHMETICS[..1]).boxed();
-    of_recipes("swarm", seed, cases, &strategy, &judged)
-}
-
-/// Any finite numbers for spheres and camera.
-///
-/// # Errors
-/// The account of a failure.
-pub fn wild(seed: u64, cases: u64) -> Result<Stakes, String> {
-    let strategy = || {
-        let vector = || any::<[u32; 3]>().prop_map(|v| v.map(finite));
-        let camera = [vector(), vector(), vector(), vector()];
-        (recipe::recipe(recipe::wild(), 6, 0, &ARITHMETICS), camera).boxed()
-    };
-    let with_camera = |(recipe, [eye, corner, du, dv]): &(Recipe, [[f32; 3]; 4])| {
-        let mut case = place::case(recipe)?;
-        // Mostly the recipe's camera sees more of them.
-        if let Ok(camera) = Camera::new(*eye, *corner, *du, *dv, case.camera.size()) {
-            case.camera = camera;
-        }
-        Some(case)
-    };
-    let check = |drawn: &(Recipe, [[f32; 3]; 4])| with_camera(drawn).map_or(Ok(none()), |case| judged(&case));
-    let outcome = run(seed, cases, strategy, check);
-    outcome.map_err(|failure| told("wild", &failure, &|case| judged(case).is_err()))
+fn wild((recipe, [eye, corner, du, dv]): &(Recipe, [[f32; 3]; 4])) -> Result<Stakes, Failure> {
+    let Some(mut case) = place::case(recipe) else { return Ok(none()) };
+    // Mostly the recipe's camera sees more of them.
+    if let Ok(camera) = Camera::new(*eye, *corner, *du, *dv, case.camera.size()) {
+        case.camera = camera;
+    }
+    judged(&case)
 }
 
 fn none() -> Stakes {
@@ -242,71 +298,34 @@ fn finite(bits: u32) -> f32 {
     f32::from_bits(if bits >> 23 & 0xff == 0xff { bits ^ 1 << 30 } else { bits })
 }
 
-/// Metamorphic relations of [`relations::Relation`], of exact plans mostly.
-///
-/// # Errors
-/// The account of a failure.
-pub fn relations(seed: u64, cases: u64) -> Result<Stakes, String> {
-    let check = |case: &Case| {
-        let mut stakes = Stakes::default();
-        let mut rng = generator(seed, u64::MAX);
-        for relation in RELATIONS {
-            let failed = |message| Failure::new(format!("{message}; by {}", case.asked), case.clone());
-            stakes.add(relation.name(), relation.hold(case, &mut rng).map_err(failed)?);
-        }
-        Ok(stakes)
-    };
-    of_recipes(
-        "relation",
-        seed,
-        cases,
-        &|| recipe::recipe(recipe::ball(), 10, 2, &ARITHMETICS[..3]).boxed(),
-        &check,
-    )
+/// Holds a case to all relations.
+fn related(case: &Case, seed: u64) -> Result<Stakes, Failure> {
+    let mut stakes = Stakes::default();
+    let mut rng = generator(seed, u64::MAX);
+    for relation in RELATIONS {
+        let failed = |message| Failure::new(format!("{message}; by {}", case.asked), case.clone());
+        stakes.add(relation.name(), relation.hold(case, &mut rng).map_err(failed)?);
+    }
+    Ok(stakes)
 }
 
-fn of_recipes(
-    property: &str,
-    seed: u64,
-    cases: u64,
-    strategy: &(dyn Fn() -> BoxedStrategy<Recipe> + Sync),
-    check: &(dyn Fn(&Case) -> Result<Stakes, Failure> + Sync),
-) -> Result<Stakes, String> {
-    let of_recipe = |recipe: &Recipe| place::case(recipe).map_or(Ok(none()), |case| check(&case));
-    let outcome = run(seed, cases, strategy, of_recipe);
-    outcome.map_err(|failure| told(property, &failure, &|case| check(case).is_err()))
-}
-
-/// What is known of lattices ([`Lattice`]), by every tracer: the naive ones in each of their arithmetics, and the grid tracer with a drawn
-/// plan in those that have the answer.
-///
-/// # Errors
-/// The account of a failure.
-pub fn certain(seed: u64, cases: u64) -> Result<Stakes, String> {
-    let plans = || recipe::plan(&ARITHMETICS[..1]);
-    let strategy = || (lattice(), plans(), prop::sample::select(Level::available()), 1u8..=3).boxed();
-    let check = |(lattice, plan, level, workers): &(Lattice, Plan, Level, u8)| {
-        let grid = |arithmetic| {
-            let blocks = if arithmetic == Arithmetic::Certified {
-                *plan
-            } else {
-                Plan { arithmetic, packet: optimized::plan::Packet::Block, ..*plan }
-            };
-            Asked::Grid { plan: blocks, level: *level, workers: *workers }
+fn certain((lattice, plan, level, workers): &(Lattice, Plan, Level, u8)) -> Result<Stakes, Failure> {
+    let grid = |arithmetic| {
+        let blocks = if arithmetic == Arithmetic::Certified {
+            *plan
+        } else {
+            Plan { arithmetic, packet: optimized::plan::Packet::Block, ..*plan }
         };
-        all_know(
-            lattice,
-            &[
-                (Form::Textbook, true, grid(Arithmetic::Rounded(Form::Textbook))),
-                (Form::Perpendicular, true, grid(Arithmetic::Rounded(Form::Perpendicular))),
-                (Form::Textbook, false, grid(Arithmetic::Certified)),
-            ],
-        )
+        Asked::Grid { plan: blocks, level: *level, workers: *workers }
     };
-    let outcome = run(seed, cases, strategy, check);
-    outcome.map_err(|failure| {
-        told("certain", &failure, &|case| case.judge().is_ok_and(|judged| worst(&judged) == Verdict::Wrong))
-    })
+    all_know(
+        lattice,
+        &[
+            (Form::Textbook, true, grid(Arithmetic::Rounded(Form::Textbook))),
+            (Form::Perpendicular, true, grid(Arithmetic::Rounded(Form::Perpendicular))),
+            (Form::Textbook, false, grid(Arithmetic::Certified)),
+        ],
+    )
 }
 
 /// Every tracer of a lattice: in which form it computes, and whether it is held to what is known in that form only.

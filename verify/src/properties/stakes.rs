@@ -15,7 +15,11 @@ use std::fmt;
 
 /// Counts by what they are of.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Stakes(BTreeMap<&'static str, u64>);
+pub struct Stakes {
+    counts: BTreeMap<&'static str, u64>,
+    /// How often a value was 0, how often 1, from 2 to 3, from 4 to 7, and so on.
+    histograms: BTreeMap<&'static str, Vec<u64>>,
+}
 
 /// Rays by their major axis and its sign.
 const AXES: [[&str; 2]; 3] = [
@@ -27,20 +31,44 @@ const AXES: [[&str; 2]; 3] = [
 impl Stakes {
     /// Counts.
     pub fn add(&mut self, what: &'static str, n: u64) {
-        *self.0.entry(what).or_default() += n;
+        *self.counts.entry(what).or_default() += n;
     }
 
     /// How many of something there were.
     #[must_use]
     pub fn count(&self, what: &str) -> u64 {
-        self.0.get(what).copied().unwrap_or(0)
+        self.counts.get(what).copied().unwrap_or(0)
+    }
+
+    /// Counts a value where it lies between powers of two.
+    pub fn bin(&mut self, what: &'static str, value: u64) {
+        self.bins(what, (u64::BITS - value.leading_zeros()) as usize, 1);
+    }
+
+    fn bins(&mut self, what: &'static str, k: usize, n: u64) {
+        let bins = self.histograms.entry(what).or_default();
+        bins.resize(bins.len().max(k + 1), 0);
+        bins[k] += n;
+    }
+
+    /// All counts.
+    pub fn counts(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        self.counts.iter().map(|(what, n)| (*what, *n))
+    }
+
+    /// All histograms.
+    pub fn histograms(&self) -> impl Iterator<Item = (&'static str, &[u64])> {
+        self.histograms.iter().map(|(what, bins)| (*what, bins.as_slice()))
     }
 
     /// Together with those of another run.
     #[must_use]
     pub fn and(mut self, other: &Self) -> Self {
-        for (what, n) in &other.0 {
+        for (what, n) in &other.counts {
             self.add(what, *n);
+        }
+        for (what, bins) in &other.histograms {
+            bins.iter().enumerate().for_each(|(k, n)| self.bins(what, k, *n));
         }
         self
     }
@@ -171,7 +199,7 @@ fn is_tied(scene: &Scene, ray: &Ray, owner: u32) -> bool {
 
 impl fmt::Display for Stakes {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all: Vec<String> = self.0.iter().map(|(what, n)| format!("{n} {what}")).collect();
+        let all: Vec<String> = self.counts().map(|(what, n)| format!("{n} {what}")).collect();
         f.write_str(&all.join(", "))
     }
 }

@@ -110,9 +110,11 @@ fn line(row: &[String; 8], widths: &[usize; 8], verdict: Style) -> String {
 /// What outside witnesses said, why someone was not judged, who did not judge, and the word for the whole.
 fn ending(report: &Report, color: bool) -> String {
     let said: String = report.scenes.iter().flat_map(sentences).map(|line| wrapped(&line) + "\n").collect();
-    let silent = report.scenes.iter().flat_map(|scene| scene.subjects.iter().map(move |subject| (scene, subject)));
+    let silent =
+        report.scenes.iter().flat_map(|scene| scene.subjects.iter().map(move |subject| (scene, subject)));
     let silent = silent.filter(|(_, subject)| subject.verdict == Verdict::NotJudged);
-    let why = silent.map(|(scene, subject)| format!("{} on {}: {}", subject.name, scene.name, subject.because));
+    let why =
+        silent.map(|(scene, subject)| format!("{} on {}: {}", subject.name, scene.name, subject.because));
     let why: String = why.map(|line| wrapped(&line) + "\n").collect();
     let absent = report.absent.iter().map(|absent| format!("{}: not judged. {}", absent.judge, absent.why));
     let absent: String = absent.map(|line| wrapped(&line) + "\n").collect();

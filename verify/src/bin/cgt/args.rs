@@ -1,11 +1,13 @@
 //! The command line.
 
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
+use clap_complete::Shell;
 use contract::Size;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
+use verify::campaign::shard::Which;
 use verify::foreign::{Foreign, ForeignError, PROMISES};
 use verify::scenes::frame::Framing;
 
@@ -77,8 +79,74 @@ pub(crate) enum Command {
     Prove(Prove),
     /// Judge a case again, by its own tracer or by yours, and tell a pixel of it step by step
     Replay(Replay),
+    /// Judge more scenes than one run or one machine has time for, in shards that can be killed and go on
+    Campaign(Campaign),
     /// List the scenes that have names, and the formats that are read
     Scenes,
+    /// Print what a shell needs to complete this program's words
+    Completions(Completions),
+    /// Write this program's manual, a page for each subcommand
+    Man(Man),
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Campaign {
+    #[command(subcommand)]
+    pub(crate) step: CampaignStep,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum CampaignStep {
+    /// Do a shard, or what is left of it
+    Run {
+        /// The campaign's plan, a TOML file (docs/campaigns.md)
+        #[arg(long, value_name = "FILE")]
+        plan: PathBuf,
+        /// Which shard of how many, counted from 1
+        #[arg(long, value_name = "I/N", default_value = "1/1")]
+        shard: Which,
+        /// Folder for the shard's file, which is made if it is missing
+        #[arg(long, value_name = "FOLDER")]
+        out: PathBuf,
+        /// Threads, at most 1024; 0 is one a core. What is found does not depend on it
+        #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u16).range(..=1024))]
+        threads: u16,
+    },
+    /// Tell how far the shards in a folder are
+    Status {
+        /// The campaign's plan
+        #[arg(long, value_name = "FILE")]
+        plan: PathBuf,
+        /// The shards' folder
+        #[arg(value_name = "FOLDER")]
+        folder: PathBuf,
+    },
+    /// Put all shards together: the same report, however the campaign was divided
+    Merge {
+        /// The campaign's plan
+        #[arg(long, value_name = "FILE")]
+        plan: PathBuf,
+        /// Folders with shards, or their files
+        #[arg(value_name = "FOLDER", required = true)]
+        places: Vec<PathBuf>,
+        /// Folder for campaign.json, campaign.txt, the page campaign.html, stakes.svg, and the failures as cases in cases/
+        #[arg(long, value_name = "FOLDER")]
+        out: PathBuf,
+    },
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Completions {
+    /// Which shell
+    #[arg(value_enum)]
+    pub(crate) shell: Shell,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct Man {
+    /// Folder for cgt.1, cgt-verify.1 and so on, which is made if it is missing; where `man` looks is ~/.local/share/man/man1
+    #[arg(value_name = "FOLDER")]
+    pub(crate) folder: PathBuf,
 }
 
 /// Tracers of the user's own.

@@ -32,7 +32,10 @@ fn main() -> ExitCode {
         Some(Command::Figures(args)) => cmd::figures::run(&args),
         Some(Command::Prove(args)) => cmd::prove::run(&args),
         Some(Command::Replay(args)) => cmd::replay::run(&args),
+        Some(Command::Campaign(args)) => cmd::campaign::run(&args.step),
         Some(Command::Scenes) => cmd::scenes::scenes(),
+        Some(Command::Completions(args)) => cmd::manual::completions(&args),
+        Some(Command::Man(args)) => cmd::manual::man(&args),
     };
     outcome.unwrap_or_else(|failure| {
         // One line for the error, one for each cause below it that says something new.

@@ -45,7 +45,7 @@ pub const ENTRIES: &[Entry] = &[
         spheres: 1_890,
         frames: 1,
         provenance: PDB_TERMS,
-        data: Data::Bundled("1hvr.pdb.gz", include_bytes!("../../../../tests/data/1hvr.pdb.gz")),
+        data: Data::Bundled("1hvr.pdb.gz", include_bytes!("../../../bundled/1hvr.pdb.gz")),
     },
     Entry {
         name: "2juy",
@@ -53,7 +53,7 @@ pub const ENTRIES: &[Entry] = &[
         spheres: 392,
         frames: 24,
         provenance: PDB_TERMS,
-        data: Data::Bundled("2juy.pdb.gz", include_bytes!("../../../../tests/data/2juy.pdb.gz")),
+        data: Data::Bundled("2juy.pdb.gz", include_bytes!("../../../bundled/2juy.pdb.gz")),
     },
     Entry {
         name: "adk",

@@ -2,10 +2,12 @@
 
 pub(crate) mod ablate;
 pub(crate) mod bench;
+pub(crate) mod campaign;
 pub(crate) mod chart;
 pub(crate) mod claims;
 pub(crate) mod figures;
 mod files;
+pub(crate) mod manual;
 pub(crate) mod prove;
 pub(crate) mod render;
 pub(crate) mod replay;

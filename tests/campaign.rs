@@ -1,0 +1,329 @@
+//! Is a campaign the same however it is divided and however often it is killed? Shards are put together for several N, killed and taken up again, cut in
+//! any byte, left out, and given twice.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
+use verify::campaign::merge::{MergeError, Outcome, merge, status};
+use verify::campaign::plan::{Plan, PlanError, Unit};
+use verify::campaign::shard::{ShardError, Which, read, run};
+use verify::campaign::text::{bin, text};
+use verify::case::{Case, worst};
+use verify::properties::Property;
+use verify::verdict::Verdict;
+
+use optimized::Level;
+
+const CGT: &str = env!("CARGO_BIN_EXE_cgt");
+
+/// Small, with something of each kind: seven units, two of them not full.
+const PLAN: &str = r#"
+name = "small"
+seed = 7
+[[draw]]
+property = "pictures"
+cases = 300
+[[draw]]
+property = "certain"
+cases = 20
+[[film]]
+scene = "2juy"
+frames = "3..7"
+size = "40x24"
+subjects = ["fast", "naive-f32-textbook"]
+[least]
+"pictures: rays" = 1000
+"#;
+
+fn plan() -> Plan {
+    Plan::parse(PLAN).expect("a plan")
+}
+
+fn folder() -> TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+fn which(text: &str) -> Which {
+    text.parse().expect("a shard")
+}
+
+fn done(plan: &Plan, shard: &str, folder: &Path) -> PathBuf {
+    run(plan, which(shard), Level::SCALAR, folder, &|_, _| ()).expect("it is done")
+}
+
+fn all(plan: &Plan, of: u64) -> TempDir {
+    let folder = folder();
+    // Not in their order.
+    for shard in (1..=of).rev() {
+        done(plan, &format!("{shard}/{of}"), folder.path());
+    }
+    folder
+}
+
+fn places(folder: &TempDir) -> Vec<PathBuf> {
+    vec![folder.path().to_path_buf()]
+}
+
+fn cgt(words: &[&str]) -> Output {
+    Command::new(CGT).args(words).output().expect("it runs")
+}
+
+fn said(output: &Output) -> String {
+    format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
+}
+
+#[test]
+fn shards_of_any_number_are_one_run() {
+    let plan = plan();
+    let units: Vec<Unit> = plan.units().collect();
+    assert_eq!(units.len(), 7);
+    // 300 cases are 19 chunks of 16.
+    assert_eq!(units[1], Unit::Drawn(Property::Pictures, 16..19));
+    assert_eq!(units[6], Unit::Frame(0, 6));
+    let one = all(&plan, 1);
+    let whole = merge(&plan, &places(&one)).expect("all are there");
+    assert_eq!(whole.outcome, Outcome::Held, "{}", text(&whole));
+    assert_eq!(whole.counts["fast on 2juy: frames equal to the truth"], 4);
+    assert_eq!(whole.counts["fast on 2juy: rays"], 4 * 40 * 24);
+    assert!(whole.counts["pictures: hits"] > 1000, "{}", text(&whole));
+    let errors = &whole.histograms["naive-f32-textbook on 2juy: largest error of t in a frame, ulp"];
+    assert_eq!(errors.iter().sum::<u64>(), 4);
+    let shown = (serde_json::to_string(&whole).expect("JSON"), text(&whole));
+    for of in [2, 3, 7, 9] {
+        let shards = all(&plan, of);
+        let merged = merge(&plan, &places(&shards)).expect("all are there");
+        assert_eq!((serde_json::to_string(&merged).expect("JSON"), text(&merged)), shown, "{of} shards");
+        // Files by themselves, in another order and from different places.
+        let mut files: Vec<PathBuf> =
+            (1..=of).map(|shard| which(&format!("{shard}/{of}")).file(shards.path())).collect();
+        let elsewhere = folder();
+        let moved = elsewhere.path().join("one.jsonl");
+        std::fs::rename(&files[0], &moved).expect("moved");
+        files[0] = moved;
+        files.reverse();
+        assert_eq!(merge(&plan, &files).expect("all are there"), merged, "{of} shards");
+    }
+    eprintln!("judged: {} units in 1, 2, 3, 7 and 9 shards", whole.units);
+}
+
+#[test]
+fn what_is_missing_or_double_or_of_something_else_is_refused() {
+    let plan = plan();
+    let shards = all(&plan, 3);
+    let file = |shard: &str| which(shard).file(shards.path());
+    // One is missing; then it is at work.
+    let aside = folder();
+    let moved = aside.path().join("two.jsonl");
+    std::fs::rename(file("2/3"), &moved).expect("moved");
+    let missing = |error| match error {
+        MergeError::Missing { count: 2, of: 7, first: 1, shard, at_work } if shard == "2/3" => at_work,
+        other => panic!("{other}"),
+    };
+    assert!(!missing(merge(&plan, &places(&shards)).expect_err("one is missing")));
+    std::fs::write(which("2/3").part(shards.path()), b"").expect("written");
+    assert!(missing(merge(&plan, &places(&shards)).expect_err("one is at work")));
+    std::fs::remove_file(which("2/3").part(shards.path())).expect("removed");
+    // It comes back, twice.
+    let mut twice = places(&shards);
+    twice.extend([moved.clone(), file("1/3")]);
+    assert!(matches!(merge(&plan, &twice), Err(MergeError::Double { unit: 0, .. })));
+    let mut back = places(&shards);
+    back.push(moved.clone());
+    assert!(merge(&plan, &back).is_ok());
+    // Of shards of another division some units are double.
+    let halves = all(&plan, 2);
+    back.push(which("1/2").file(halves.path()));
+    assert!(matches!(merge(&plan, &back), Err(MergeError::Double { .. })));
+    // A whole file that lost its end, in a line and between two.
+    let text = std::fs::read(&moved).expect("readable");
+    let last = text[..text.len() - 1].iter().rposition(|byte| *byte == b'\n').expect("several lines") + 1;
+    for (length, double) in [(text.len() - 1, false), (last, true)] {
+        std::fs::write(&moved, &text[..length]).expect("written");
+        let error = merge(&plan, &[places(&shards), vec![moved.clone()]].concat()).expect_err("it is cut");
+        let expected = if double {
+            matches!(error, MergeError::Missing { count: 1, .. })
+        } else {
+            error.to_string().contains("after its last whole line")
+        };
+        assert!(expected, "{length}: {error}");
+    }
+    std::fs::write(&moved, &text).expect("written");
+    // Another plan, other levels, another program.
+    let other = Plan { seed: 8, ..plan.clone() };
+    assert!(matches!(merge(&other, &[moved.clone()]), Err(MergeError::Shard(ShardError::Other { .. }))));
+    for (from, to) in [("\"scalar\"", "\"neon\""), ("\"scenes\":[\"", "\"scenes\":[\"0")] {
+        let changed = String::from_utf8(text.clone()).expect("text");
+        assert!(changed.contains(from), "{changed:.300}");
+        std::fs::write(&moved, changed.replacen(from, to, 1)).expect("written");
+        let error = merge(&plan, &[places(&shards), vec![moved.clone()]].concat()).expect_err(to);
+        assert!(matches!(error, MergeError::Different { .. }), "{error}");
+    }
+    assert!(matches!(merge(&plan, &places(&aside)), Err(MergeError::None)));
+}
+
+/// A file that was cut in any byte is taken up and comes out the same.
+#[test]
+fn a_shard_that_was_cut_anywhere_goes_on() {
+    let plan = plan();
+    let whole = folder();
+    let file = done(&plan, "3/3", whole.path());
+    let text = std::fs::read(&file).expect("readable");
+    let lines = read(&file).expect("readable").expect("whole");
+    assert_eq!((lines.found.len(), lines.cut), (2, 0));
+    let ends: Vec<usize> = (0..text.len()).filter(|at| text[*at] == b'\n').collect();
+    for cut in
+        [0, 1, ends[0], ends[0] + 1, ends[0] + 2, ends[1], ends[1] + 1, ends[2] - 1, ends[2], ends[2] + 1]
+    {
+        let again = folder();
+        let part = which("3/3").part(again.path());
+        std::fs::write(&part, &text[..cut]).expect("written");
+        let file = done(&plan, "3/3", again.path());
+        assert!(std::fs::read(&file).expect("readable") == text, "cut at {cut} of {}", text.len());
+        assert!(!part.exists());
+    }
+    // What is not this shard's is not gone over.
+    let strange = folder();
+    std::fs::write(which("1/3").part(strange.path()), &text).expect("written");
+    let error = run(&plan, which("1/3"), Level::SCALAR, strange.path(), &|_, _| ()).expect_err("it is 3/3");
+    assert!(error.to_string().contains("it is shard 3/3"), "{error}");
+    // Twice is once.
+    assert_eq!(done(&plan, "3/3", whole.path()), file);
+    assert_eq!(std::fs::read(&file).expect("readable"), text);
+}
+
+/// The program is killed after each of its units in turn, and once at once; in the end the file is that of a run in peace.
+#[cfg(unix)]
+#[test]
+fn a_program_that_is_killed_at_any_time_loses_what_it_was_at() {
+    let desk = folder();
+    let file = desk.path().join("plan.toml");
+    std::fs::write(&file, PLAN).expect("written");
+    let out = desk.path().join("shards");
+    let words =
+        ["campaign", "run", "--plan", file.to_str().expect("UTF-8"), "--out", out.to_str().expect("UTF-8")];
+    let part = which("1/1").part(&out);
+    let lines = || std::fs::read(&part).map_or(0, |text| text.iter().filter(|byte| **byte == b'\n').count());
+    let mut killed = 0;
+    for want in [0, 2, 3, 5] {
+        let mut child = Command::new(CGT).args(words).stdout(Stdio::null()).spawn().expect("it starts");
+        while lines() < want && child.try_wait().expect("asked").is_none() {
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        killed += u32::from(child.kill().is_ok() && !child.wait().expect("ended").success());
+        assert!(which("1/1").file(&out).exists() || lines() >= want);
+    }
+    assert!(killed >= 2, "it was done before it could be killed");
+    // Only one at a time works on a shard.
+    let mut first = Command::new(CGT).args(words).stdout(Stdio::piped()).spawn().expect("it starts");
+    let mut taken = None;
+    while first.try_wait().expect("asked").is_none() && taken.is_none() {
+        let second = cgt(&words);
+        taken = (second.status.code() == Some(2)).then(|| said(&second));
+    }
+    let told = BufReader::new(first.stdout.take().expect("piped")).lines().next();
+    assert!(first.wait().expect("ended").success(), "{told:?}");
+    if let Some(taken) = taken {
+        assert!(taken.contains("another process works on"), "{taken}");
+    }
+    let peace = folder();
+    let undisturbed = done(&plan(), "1/1", peace.path());
+    let killed = std::fs::read(which("1/1").file(&out)).expect("whole");
+    assert!(killed == std::fs::read(undisturbed).expect("whole"), "what was killed differs");
+}
+
+#[test]
+fn a_failure_is_one_case_however_often_it_is_found() {
+    let desk = folder();
+    let file = desk.path().join("plan.toml");
+    let text = "name = \"broken\"\nseed = 1\n[[film]]\nscene = \"2juy\"\nframes = \"0..3\"\nsize = \"160x90\"\nsubjects = [\"paper\"]\n";
+    std::fs::write(&file, text).expect("written");
+    let place = |name: &str| desk.path().join(name).to_string_lossy().into_owned();
+    let (plan, shards, out) = (place("plan.toml"), place("shards"), place("merged"));
+    for shard in ["1/2", "2/2"] {
+        let ran = cgt(&["campaign", "run", "--plan", &plan, "--shard", shard, "--out", &shards]);
+        assert_eq!(ran.status.code(), Some(0), "{}", said(&ran));
+    }
+    let told = cgt(&["campaign", "status", "--plan", &plan, &shards]);
+    assert!(said(&told).contains("3 of 3 units"), "{}", said(&told));
+    let merged = cgt(&["campaign", "merge", "--plan", &plan, &shards, "--out", &out]);
+    assert_eq!(merged.status.code(), Some(1), "{}", said(&merged));
+    let merged = merge(&Plan::parse(text).expect("a plan"), &[PathBuf::from(&shards)]).expect("whole");
+    let times: u64 = merged.failures.iter().map(|failure| failure.times).sum();
+    assert_eq!(times, 3, "{merged:?}");
+    let mut names: Vec<&str> = merged.failures.iter().map(|failure| failure.name.as_str()).collect();
+    names.dedup();
+    assert_eq!(names.len(), merged.failures.len());
+    for failure in &merged.failures {
+        let file = Path::new(&out).join("cases").join(format!("{}.json", failure.name));
+        let case = Case::from_json(&std::fs::read(file).expect("it is kept")).expect("readable");
+        assert_eq!(worst(&case.judge().expect("judged")), Verdict::Wrong);
+        assert_eq!(case.camera.size().pixels(), 1);
+    }
+    let page = std::fs::read_to_string(Path::new(&out).join("campaign.html")).expect("a page");
+    assert!(
+        page.contains("Promises were broken") && page.contains("cgt replay cases/paper-"),
+        "{page:.2000}"
+    );
+}
+
+#[test]
+fn a_campaign_with_too_little_at_stake_has_no_verdict() {
+    let text = PLAN.replace("= 1000", "= 1000000000");
+    let demanding = Plan::parse(&text).expect("a plan");
+    // Only what is demanded differs, so the plans do: shards of one are none of the other.
+    assert_ne!(demanding.hash(), plan().hash());
+    let shards = folder();
+    let only = Plan { draw: demanding.draw[1..].to_vec(), film: Vec::new(), ..demanding };
+    done(&only, "1/1", shards.path());
+    let merged = merge(&only, &places(&shards)).expect("whole");
+    assert_eq!(merged.outcome, Outcome::TooLittle);
+    assert!(merged.lacking[0].contains("of at least 1000000000"), "{:?}", merged.lacking);
+}
+
+#[test]
+fn status_names_what_was_not_begun() {
+    let plan = plan();
+    let shards = folder();
+    done(&plan, "2/4", shards.path());
+    let text = std::fs::read(which("2/4").file(shards.path())).expect("readable");
+    let cut = text.iter().position(|byte| *byte == b'\n').expect("a line") + 1;
+    let half = String::from_utf8(text[..cut].to_vec()).expect("text").replace("\"shard\":2", "\"shard\":3");
+    std::fs::write(which("3/4").part(shards.path()), half).expect("written");
+    let all = status(&plan, shards.path()).expect("readable");
+    let far: Vec<_> = all.iter().map(|one| (one.which.to_string(), one.done, one.whole)).collect();
+    assert_eq!(far, [("2/4".into(), [2, 2], true), ("3/4".into(), [0, 2], false)]);
+    let told = verify::campaign::text::status(&all);
+    assert!(told.contains("not begun: 1, 4") && told.contains("2 of 4 units of these shards"), "{told}");
+}
+
+#[test]
+fn plans_that_make_no_sense_are_refused() {
+    let with = |from: &str, to: &str| {
+        assert!(PLAN.contains(from), "{from}");
+        Plan::parse(&PLAN.replacen(from, to, 1)).expect_err(to)
+    };
+    assert!(matches!(Plan::parse("name = \"x\"\nseed = 1\n"), Err(PlanError::Empty)));
+    assert!(matches!(with("\"certain\"", "\"pictures\""), PlanError::Twice { word: "pictures" }));
+    assert!(matches!(with("cases = 20", "cases = 0"), PlanError::NoCase { word: "certain" }));
+    assert!(matches!(with("cases = 20", "cases = 1000000000000000"), PlanError::TooMuch { .. }));
+    assert!(with("seed = 7", "seed = 7\nsede = 8").to_string().contains("sede"));
+    assert!(with("\"pictures\"", "\"paintings\"").to_string().contains("paintings"));
+    for (from, to) in
+        [("3..7", "7..3"), ("3..7", "3"), ("40x24", "0x24"), ("40x24", "wide"), ("\"fast\"", "\"slow\"")]
+    {
+        assert!(matches!(with(from, to), PlanError::Film { .. }), "{to}");
+    }
+    let beyond = Plan::parse(&PLAN.replace("3..7", "3..25")).expect("of a scene nothing is known yet");
+    let error =
+        run(&beyond, which("1/1"), Level::SCALAR, folder().path(), &|_, _| ()).expect_err("24 frames");
+    assert!(error.to_string().contains("frames 0 to 23, not 24"), "{error}");
+    for text in ["0/3", "4/3", "1/0", "one", "1/99999999999"] {
+        assert!(text.parse::<Which>().is_err(), "{text}");
+    }
+    assert_eq!(
+        [0, 1, 2, 5, 10].map(bin),
+        ["0", "1", "2 to 3", "16 to 31", "512 to 1\u{202f}023"].map(str::to_owned)
+    );
+    assert!(bin(64).ends_with("551\u{202f}615"), "{}", bin(64));
+}
