@@ -1,7 +1,6 @@
 //! Is a campaign the same however it is divided and however often it is killed? Shards are put together for several N, killed and taken up again, cut in
 //! any byte, left out, and given twice.
 
-use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
@@ -215,17 +214,14 @@ fn a_program_that_is_killed_at_any_time_loses_what_it_was_at() {
     }
     assert!(killed >= 2, "it was done before it could be killed");
     // Only one at a time works on a shard.
-    let mut first = Command::new(CGT).args(words).stdout(Stdio::piped()).spawn().expect("it starts");
-    let mut taken = None;
-    while first.try_wait().expect("asked").is_none() && taken.is_none() {
-        let second = cgt(&words);
-        taken = (second.status.code() == Some(2)).then(|| said(&second));
-    }
-    let told = BufReader::new(first.stdout.take().expect("piped")).lines().next();
-    assert!(first.wait().expect("ended").success(), "{told:?}");
-    if let Some(taken) = taken {
-        assert!(taken.contains("another process works on"), "{taken}");
-    }
+    let held = std::fs::OpenOptions::new().append(true).open(&part).expect("it is at work");
+    held.lock().expect("nobody else is there");
+    let second = cgt(&words);
+    assert_eq!(second.status.code(), Some(2), "{}", said(&second));
+    assert!(said(&second).contains("another process works on"), "{}", said(&second));
+    drop(held);
+    let last = cgt(&words);
+    assert_eq!(last.status.code(), Some(0), "{}", said(&last));
     let peace = folder();
     let undisturbed = done(&plan(), "1/1", peace.path());
     let killed = std::fs::read(which("1/1").file(&out)).expect("whole");
@@ -265,6 +261,29 @@ fn a_failure_is_one_case_however_often_it_is_found() {
         page.contains("Promises were broken") && page.contains("cgt replay cases/paper-"),
         "{page:.2000}"
     );
+}
+
+/// Two units that find the same case, and one that finds another.
+#[test]
+fn the_same_smallest_case_is_one_failure() {
+    let plan = plan();
+    let shards = all(&plan, 1);
+    let file = which("1/1").file(shards.path());
+    let text = std::fs::read_to_string(&file).expect("text");
+    let broken =
+        |case: &str| format!("\"failures\":[{{\"of\":\"pictures\",\"message\":\"m\",\"case\":\"{case}\"}}]");
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    for (line, case) in [(1, "one"), (2, "two"), (6, "one")] {
+        assert!(lines[line].contains("\"failures\":[]"), "{}", lines[line]);
+        lines[line] = lines[line].replace("\"failures\":[]", &broken(case));
+    }
+    std::fs::write(&file, lines.join("\n") + "\n").expect("written");
+    let merged = merge(&plan, &places(&shards)).expect("whole");
+    assert_eq!(merged.outcome, Outcome::Broken);
+    let mut told: Vec<_> =
+        merged.failures.iter().map(|failure| (failure.case.as_str(), failure.times, failure.unit)).collect();
+    told.sort_unstable();
+    assert_eq!(told, [("one", 2, 0), ("two", 1, 1)]);
 }
 
 #[test]
@@ -326,4 +345,39 @@ fn plans_that_make_no_sense_are_refused() {
         ["0", "1", "2 to 3", "16 to 31", "512 to 1\u{202f}023"].map(str::to_owned)
     );
     assert!(bin(64).ends_with("551\u{202f}615"), "{}", bin(64));
+}
+
+/// What stands in docs/campaigns.md is what the program does.
+#[test]
+fn the_page_and_the_plans_beside_it_are_true() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    let page = std::fs::read_to_string(docs.join("campaigns.md")).expect("it is there");
+    let block =
+        |kind: &str| page.split(&format!("```{kind}\n")).nth(1).and_then(|rest| rest.split("```").next());
+    let shown = block("toml").expect("a plan");
+    Plan::parse(shown).expect("the plan that is shown is one");
+    let hunt = std::fs::read_to_string(docs.join("campaigns/hunt.toml")).expect("it is there");
+    Plan::parse(&hunt).expect("a plan");
+    // The same, smaller.
+    let mut small = shown.split("[least]").next().expect("the rest").to_owned();
+    for (from, to) in [("100_000", "256"), ("0..24", "0..2"), ("320x180", "32x18")] {
+        assert!(small.contains(from), "{from}");
+        small = small.replace(from, to);
+    }
+    let desk = folder();
+    std::fs::write(desk.path().join("plan.toml"), small).expect("written");
+    let commands: Vec<&str> = block("sh").expect("commands").lines().collect();
+    assert_eq!(commands.len(), 4);
+    for line in commands {
+        let words = line.split(' ').skip(1);
+        let ran = Command::new(CGT).args(words).current_dir(desk.path()).output().expect("it runs");
+        assert_eq!(ran.status.code(), Some(0), "{line}: {}", said(&ran));
+    }
+    for name in ["campaign.json", "campaign.txt", "campaign.html", "stakes.svg"] {
+        assert!(desk.path().join("report").join(name).exists(), "{name}");
+    }
+    for script in ["slurm-submit", "slurm-shard", "slurm-merge"] {
+        let read = Command::new("bash").arg("-n").arg(docs.join("campaigns").join(script)).status();
+        assert!(read.is_ok_and(|status| status.success()), "{script}");
+    }
 }
