@@ -204,7 +204,7 @@ fn a_program_that_is_killed_at_any_time_loses_what_it_was_at() {
     let part = which("1/1").part(&out);
     let lines = || std::fs::read(&part).map_or(0, |text| text.iter().filter(|byte| **byte == b'\n').count());
     let mut killed = 0;
-    for want in [0, 2, 3, 5] {
+    for want in [0, 2, 3] {
         let mut child = Command::new(CGT).args(words).stdout(Stdio::null()).spawn().expect("it starts");
         while lines() < want && child.try_wait().expect("asked").is_none() {
             std::thread::sleep(std::time::Duration::from_millis(1));
@@ -213,19 +213,24 @@ fn a_program_that_is_killed_at_any_time_loses_what_it_was_at() {
         assert!(which("1/1").file(&out).exists() || lines() >= want);
     }
     assert!(killed >= 2, "it was done before it could be killed");
-    // Only one at a time works on a shard.
-    let held = std::fs::OpenOptions::new().append(true).open(&part).expect("it is at work");
-    held.lock().expect("nobody else is there");
-    let second = cgt(&words);
-    assert_eq!(second.status.code(), Some(2), "{}", said(&second));
-    assert!(said(&second).contains("another process works on"), "{}", said(&second));
-    drop(held);
     let last = cgt(&words);
     assert_eq!(last.status.code(), Some(0), "{}", said(&last));
     let peace = folder();
     let undisturbed = done(&plan(), "1/1", peace.path());
     let killed = std::fs::read(which("1/1").file(&out)).expect("whole");
     assert!(killed == std::fs::read(undisturbed).expect("whole"), "what was killed differs");
+}
+
+#[test]
+fn only_one_process_works_on_a_shard() {
+    let shards = folder();
+    let held = std::fs::File::create(which("1/1").part(shards.path())).expect("made");
+    held.lock().expect("nobody else is there");
+    let error =
+        run(&plan(), which("1/1"), Level::SCALAR, shards.path(), &|_, _| ()).expect_err("it is taken");
+    assert!(matches!(error, ShardError::Taken { .. }), "{error}");
+    drop(held);
+    done(&plan(), "1/1", shards.path());
 }
 
 #[test]

@@ -11,6 +11,7 @@ use verify::case::folder::keep;
 use verify::case::shrink::shrink;
 use verify::case::text::TextError;
 use verify::case::{Asked, Case, worst};
+use verify::foreign::PROMISES;
 use verify::properties::recipe::plan;
 use verify::subject::NAIVE_ALL;
 use verify::verdict::Verdict;
@@ -35,8 +36,11 @@ fn each_case_is_judged_as_it_should_be() {
     for path in &paths {
         let case = read(path);
         assert!(case.why.len() > 20, "{}: it does not say what it shows", path.display());
-        let asked = match case.asked {
-            Asked::Naive(_) => vec![case.asked],
+        let asked = match case.asked.clone() {
+            Asked::Foreign { name, .. } => {
+                panic!("{}: `{name}` is a program, which no test has", path.display())
+            }
+            naive @ Asked::Naive(_) => vec![naive],
             Asked::Grid { plan, workers, .. } => {
                 Level::available().into_iter().map(|level| Asked::Grid { plan, level, workers }).collect()
             }
@@ -47,8 +51,9 @@ fn each_case_is_judged_as_it_should_be() {
             let verdict = worst(&judged);
             assert!(
                 case.is_as_expected(verdict),
-                "{}, {asked}: {verdict:?} instead of {:?}: {}; cgt replay {}",
+                "{}, {}: {verdict:?} instead of {:?}: {}; cgt replay {}",
                 path.display(),
+                case.asked,
                 case.expected,
                 judged[0].judgement.because,
                 path.display(),
@@ -95,9 +100,10 @@ fn a_case_comes_back_from_its_file_as_it_went_in() {
     let plans =
         [Plan::paper(), Plan::safe(), Plan::fast(), Plan { on_event: OnEvent::Refuse, ..Plan::safe() }];
     let grids = plans.map(|plan| Asked::Grid { plan, level, workers: 3 });
-    for asked in naive.into_iter().chain(grids) {
+    let programs = PROMISES.map(|(_, promise)| Asked::Foreign { name: "mine".into(), promise, tracer: None });
+    for asked in naive.into_iter().chain(grids).chain(programs) {
         for expected in [Verdict::Equal, Verdict::WithinBound, Verdict::Undecidable, Verdict::Wrong] {
-            let case = Case { asked, expected, pixel: None, ..plain.clone() };
+            let case = Case { asked: asked.clone(), expected, pixel: None, ..plain.clone() };
             let text = case.to_json();
             let back = Case::from_json(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"));
             assert_eq!(back.to_json(), text);
@@ -105,7 +111,7 @@ fn a_case_comes_back_from_its_file_as_it_went_in() {
             seen += 1;
         }
     }
-    assert_eq!(seen, 36);
+    assert_eq!(seen, 52);
     // Every word of every plan.
     let mut rng = proptest::test_runner::TestRunner::deterministic();
     for _ in 0..300 {

@@ -4,7 +4,6 @@
 
 use verify::properties::Property;
 use verify::properties::relations::RELATIONS;
-use verify::properties::stakes::Stakes;
 use verify::seed::{count, seed};
 
 /// Runs a property and asks whether enough was at stake.

@@ -9,7 +9,7 @@ use verify::prove::solver::Solver;
 use verify::scenes::catalogue::{Data, ENTRIES};
 
 /// Commands that are not run here, and why. Each must occur, and each script of them must be there to be run.
-const NOT_RUN: [(&str, &str); 11] = [
+const NOT_RUN: [(&str, &str); 16] = [
     ("tests/run", "it is what runs this test"),
     ("tests/fetch-data", "it needs a network"),
     ("tests/run --long", "it takes ten minutes"),
@@ -19,6 +19,23 @@ const NOT_RUN: [(&str, &str); 11] = [
         "fuzz/run scene 60",
         "it builds for a fuzzer, with a C++ compiler; tests/fuzz.rs runs the target itself",
     ),
+    (
+        "cargo run --release -p verify --example own_tracer",
+        "it builds the example; tests/own.rs judges it, by its trait and over the pipe",
+    ),
+    (
+        "cgt campaign run --plan docs/campaigns/hunt.toml --shard 1/100 --out shards",
+        "it takes minutes; tests/campaign.rs runs smaller plans",
+    ),
+    (
+        "docs/campaigns/slurm-submit docs/campaigns/hunt.toml shards 100 report --cpus-per-task=2",
+        "it needs a cluster; tests/run --cluster runs it on one of its own",
+    ),
+    (
+        "cgt campaign merge --plan docs/campaigns/hunt.toml shards --out report",
+        "it needs all shards; tests/campaign.rs merges smaller ones",
+    ),
+    ("cargo install --path verify", "it builds everything again, and changes the user's own folder"),
     ("cargo run --release -- report", "it takes five minutes; a small report is run in its place"),
     ("tests/sanitize miri", "it needs nightly Rust and minutes; tests/accesses.rs is what it runs"),
     (
@@ -64,13 +81,13 @@ fn blocks(text: &str, kind: &str) -> Vec<Vec<String>> {
 }
 
 /// What `cgt` is given by a command line of README, or `None` if it is none of `cgt`.
-fn words(line: &str) -> Option<Vec<&str>> {
+fn words(line: &str) -> Option<Vec<String>> {
     let rest = match line.strip_prefix("cargo run --release") {
         Some("") => "",
         Some(rest) => rest.strip_prefix(" -- ")?,
         None => line.strip_prefix("cgt ")?,
     };
-    Some(rest.split_whitespace().collect())
+    shlex::split(rest)
 }
 
 /// Runs a command line in a new folder that has the files which README takes for the user's own.
@@ -84,11 +101,13 @@ fn run(line: &str) -> (TempDir, Output) {
     std::fs::write(desk.path().join("molecule.pdb.gz"), bundled.expect("bundled")).expect("written");
     let path = "2\none\nC 0 0 0\nO 1.2 0 0\n2\ntwo\nC 0 0 0\nO 1.3 0 0\n";
     std::fs::write(desk.path().join("path.xyz"), path).expect("written");
-    let cases = desk.path().join("tests/cases");
-    std::fs::create_dir_all(&cases).expect("made");
-    for case in std::fs::read_dir(root().join("tests/cases")).expect("it is there") {
-        let case = case.expect("an entry");
-        std::fs::copy(case.path(), cases.join(case.file_name())).expect("copied");
+    for folder in ["tests/cases", "verify/examples"] {
+        let copies = desk.path().join(folder);
+        std::fs::create_dir_all(&copies).expect("made");
+        for file in std::fs::read_dir(root().join(folder)).expect("it is there") {
+            let file = file.expect("an entry");
+            std::fs::copy(file.path(), copies.join(file.file_name())).expect("copied");
+        }
     }
     let words =
         words(line).unwrap_or_else(|| panic!("README names a command this test does not know: {line}"));
@@ -114,7 +133,10 @@ fn commands_work_and_pictures_come_out_again() {
             "{line} ({why}) is exempt and does not occur"
         );
         let script = line.split(' ').next().unwrap_or_default();
-        assert!(script == "cargo" || executable(&root().join(script)), "{line} cannot be run");
+        assert!(
+            ["cargo", "cgt"].contains(&script) || executable(&root().join(script)),
+            "{line} cannot be run"
+        );
     }
     let mut pictures = drawn(&root().join("docs"));
     assert!(!pictures.is_empty(), "README has pictures");

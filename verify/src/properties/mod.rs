@@ -17,7 +17,7 @@ use crate::case::folder::{folder, keep};
 use crate::case::shrink::shrink;
 use crate::case::{Asked, Case, worst};
 use crate::seed::generator;
-use crate::subject::NAIVE_ALL;
+use crate::subject::{NAIVE_ALL, Promise};
 use crate::verdict::Verdict;
 use contract::{Camera, Image};
 use lattice::{Lattice, lattice};
@@ -44,6 +44,8 @@ use std::fmt::Debug;
 
 /// Cases that one runner draws.
 pub const CHUNK: u64 = 16;
+/// Arithmetics of which relations are stated.
+const RELATED: &[Arithmetic] = ARITHMETICS.split_at(3).0;
 /// Questions that shrinking may ask.
 const QUESTIONS: u32 = 4_000;
 
@@ -175,10 +177,7 @@ impl Property {
                 let strategy = (recipe::recipe(recipe::wild(), 6, 0, &ARITHMETICS), camera).boxed();
                 self::chunk(seed, chunk, &strategy, wild)
             }
-            Self::Relations => of_recipe(
-                &|case| related(case, seed),
-                recipe::recipe(recipe::ball(), 10, 2, &ARITHMETICS[..3]).boxed(),
-            ),
+            Self::Relations => of_recipe(&related, recipe::recipe(recipe::ball(), 10, 2, RELATED).boxed()),
         }
     }
 
@@ -189,7 +188,7 @@ impl Property {
             // What integers know of a lattice is lost once it is another scene.
             Self::Certain => case.judge().is_ok_and(|judged| worst(&judged) == Verdict::Wrong),
             Self::Pictures | Self::Swarms | Self::Wild => judged(case).is_err(),
-            Self::Relations => related(case, 0).is_err(),
+            Self::Relations => related(case).is_err(),
         }
     }
 }
@@ -298,10 +297,22 @@ fn finite(bits: u32) -> f32 {
     f32::from_bits(if bits >> 23 & 0xff == 0xff { bits ^ 1 << 30 } else { bits })
 }
 
-/// Holds a case to all relations.
-fn related(case: &Case, seed: u64) -> Result<Stakes, Failure> {
+/// Whether relations are stated of a tracer: of the grid tracer in the arithmetics that [`Property::Relations`] draws, and of who promises the truth.
+#[must_use]
+pub fn has_relations(asked: &Asked) -> bool {
+    match asked {
+        Asked::Grid { plan, .. } => RELATED.contains(&plan.arithmetic),
+        Asked::Naive(_) | Asked::Foreign { .. } => asked.promise() == Promise::Exact,
+    }
+}
+
+/// Holds a case to all relations. What they draw, as an order of spheres, is a function of the case, so that it can be run again.
+///
+/// # Errors
+/// The first that is broken.
+pub fn related(case: &Case) -> Result<Stakes, Failure> {
     let mut stakes = Stakes::default();
-    let mut rng = generator(seed, u64::MAX);
+    let mut rng = generator(crc(case.to_json().as_bytes()).into(), 0);
     for relation in RELATIONS {
         let failed = |message| Failure::new(format!("{message}; by {}", case.asked), case.clone());
         stakes.add(relation.name(), relation.hold(case, &mut rng).map_err(failed)?);

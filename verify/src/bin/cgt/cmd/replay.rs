@@ -8,7 +8,9 @@ use verify::case::account::{account, check_pixel};
 use verify::case::folder::keep;
 use verify::case::shrink::shrink;
 use verify::case::{Case, worst};
+use verify::properties::{has_relations, related};
 use verify::subject::Subject;
+use verify::verdict::Verdict;
 
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let place = |error: &dyn std::fmt::Display| format!("`{}`: {error}", args.case.display());
@@ -49,7 +51,17 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     check_pixel(case.camera.size(), pixel)?;
     let verdict = worst(&judged);
     say(&format!("{}\n\n{}", case.why, account(&case, frame, pixel)?))?;
-    let as_expected = case.is_as_expected(verdict);
+    // A tracer may be at odds with itself where no picture of it is wrong.
+    let stated = has_relations(&case.asked);
+    let broken = if stated { related(&case).err() } else { None };
+    match &broken {
+        Some(failure) => say(&format!("\nrelations  {}\n", failure.message))?,
+        None if stated => {
+            say("\nrelations  hold: turned, mirrored, scaled or in another order it says the same\n")?
+        }
+        None => {}
+    }
+    let as_expected = case.is_as_expected(verdict) && (broken.is_none() || case.expected == Verdict::Wrong);
     let word = if as_expected { "as it should be" } else { "NOT as it should be" };
     say(&format!("\ncase       {verdict:?}, {word} ({:?})\n", case.expected))?;
     if let Some(folder) = &args.out {
