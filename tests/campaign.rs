@@ -150,7 +150,10 @@ fn what_is_missing_or_double_or_of_something_else_is_refused() {
     std::fs::write(&moved, &text).expect("written");
     // Another plan, other levels, another program.
     let other = Plan { seed: 8, ..plan.clone() };
-    assert!(matches!(merge(&other, &[moved.clone()]), Err(MergeError::Shard(ShardError::Other { .. }))));
+    assert!(matches!(
+        merge(&other, std::slice::from_ref(&moved)),
+        Err(MergeError::Shard(ShardError::Other { .. }))
+    ));
     for (from, to) in [("\"scalar\"", "\"neon\""), ("\"scenes\":[\"", "\"scenes\":[\"0")] {
         let changed = String::from_utf8(text.clone()).expect("text");
         assert!(changed.contains(from), "{changed:.300}");

@@ -86,7 +86,7 @@ pub struct Film {
 pub enum PlanError {
     /// Not TOML, or not with these names; the place is in the message.
     #[error("{0}")]
-    Toml(#[from] toml::de::Error),
+    Toml(Box<toml::de::Error>),
     /// Nothing to do.
     #[error("it draws nothing and has no film")]
     Empty,
@@ -122,7 +122,7 @@ pub enum PlanError {
         /// Its scene.
         scene: String,
         /// Why.
-        cause: SourceError,
+        cause: Box<SourceError>,
     },
 }
 
@@ -187,7 +187,8 @@ impl Film {
     /// [`PlanError::Scene`] if it cannot be had, [`PlanError::Film`] if it has fewer frames.
     pub fn load(&self) -> Result<Loaded, PlanError> {
         let load = || Source::parse(&self.scene)?.load();
-        let loaded = load().map_err(|cause| PlanError::Scene { scene: self.scene.clone(), cause })?;
+        let loaded =
+            load().map_err(|cause| PlanError::Scene { scene: self.scene.clone(), cause: cause.into() })?;
         let (frames, last) = (loaded.animation.frames().len(), self.range()?.end - 1);
         if last < frames {
             Ok(loaded)
@@ -211,7 +212,7 @@ impl Plan {
     /// # Errors
     /// [`PlanError`] for the first thing found wrong; whether films can be had is found when they are.
     pub fn parse(text: &str) -> Result<Self, PlanError> {
-        let plan: Self = toml::from_str(text)?;
+        let plan: Self = toml::from_str(text).map_err(|error| PlanError::Toml(error.into()))?;
         if plan.draw.is_empty() && plan.film.is_empty() {
             return Err(PlanError::Empty);
         }

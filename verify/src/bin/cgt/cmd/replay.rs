@@ -54,12 +54,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     // A tracer may be at odds with itself where no picture of it is wrong.
     let stated = has_relations(&case.asked);
     let broken = if stated { related(&case).err() } else { None };
-    match &broken {
-        Some(failure) => say(&format!("\nrelations  {}\n", failure.message))?,
-        None if stated => {
-            say("\nrelations  hold: turned, mirrored, scaled or in another order it says the same\n")?
-        }
-        None => {}
+    if stated {
+        let told = broken.as_ref().map(|failure| failure.message.as_str());
+        let told = told.unwrap_or("hold: turned, mirrored, scaled or in another order it says the same");
+        say(&format!("\nrelations  {told}\n"))?;
     }
     let as_expected = case.is_as_expected(verdict) && (broken.is_none() || case.expected == Verdict::Wrong);
     let word = if as_expected { "as it should be" } else { "NOT as it should be" };
