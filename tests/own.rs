@@ -157,6 +157,7 @@ fn a_fault_is_found_and_shown_and_kept_as_the_smallest_case() {
     assert_eq!(case.frames.frames()[0].spheres().len(), 2, "{text}");
     assert_eq!(case.camera.size().pixels(), 1, "{text}");
     assert!(desk.path().join("cases/mine.png").exists());
+    assert!(text.contains("kept: cgt replay cases/mine.json --pixel 0,0 --subject-cmd \"mine="), "{text}");
 
     let replay = |more: &[&str]| cgt(desk.path(), &[&["replay", "cases/mine.json"], more].concat());
     let alone = replay(&[]);

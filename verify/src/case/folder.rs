@@ -2,8 +2,9 @@
 //! in a folder; and the line that runs it again.
 
 use super::account::account;
-use super::{Case, CaseError};
+use super::{Asked, Case, CaseError};
 use crate::picture::{PictureError, RgbaImage, WriteError, join, panels, png, write_atomically};
+use crate::subject::Subject;
 use image::imageops::{FilterType, resize};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
@@ -58,7 +59,7 @@ pub fn keep(case: &Case, folder: &Path, name: &str) -> Result<Kept, KeepError> {
         // There is nothing to show, but the case can be run again.
         Err(error) => {
             write_atomically(&file, case.to_json().as_bytes())?;
-            let command = format!("cgt replay {}", file.display());
+            let command = format!("cgt replay {}{}", file.display(), asking(case));
             return Ok(Kept { file, command, account: error.to_string() });
         }
     };
@@ -71,8 +72,16 @@ pub fn keep(case: &Case, folder: &Path, name: &str) -> Result<Kept, KeepError> {
     write_atomically(&folder.join(format!("{name}.png")), &png(&join(&panels))?)?;
     let account = account(&case, frame, pixel)?;
     write_atomically(&folder.join(format!("{name}.txt")), account.as_bytes())?;
-    let command = format!("cgt replay {} --pixel {},{}", file.display(), pixel[0], pixel[1]);
+    let command = format!("cgt replay {} --pixel {},{}{}", file.display(), pixel[0], pixel[1], asking(&case));
     Ok(Kept { file, command, account })
+}
+
+/// What the command needs besides, where the tracer is a program.
+fn asking(case: &Case) -> String {
+    match &case.asked {
+        Asked::Foreign { tracer: Some(tracer), .. } => format!(" {}", tracer.option()),
+        _ => String::new(),
+    }
 }
 
 /// Each pixel as a square of so many that a small panel can be seen.
