@@ -22,10 +22,12 @@ for (const figure of document.querySelectorAll("[data-live]")) {
   const start = async () => {
     const [module, scene, first] = [await unpacked("module"), await unpacked("scene"), plain("camera")];
     const { instance: { exports: api } } = await WebAssembly.instantiate(module);
-    const text = () => new TextDecoder().decode(new Uint8Array(api.memory.buffer, api.message(), api.message_bytes()));
+    // What a function gives is an address; it is asked first, since memory that has grown is another buffer.
+    const bytes = (address, length) => new Uint8Array(api.memory.buffer, address, length);
+    const text = () => new TextDecoder().decode(bytes(api.message(), api.message_bytes()));
     const yes = answer => { if (!answer) throw new Error(text()); return answer; };
-    const put = (bytes, take) => {
-      new Uint8Array(api.memory.buffer, yes(api.inbox(bytes.length)), bytes.length).set(bytes);
+    const put = (what, take) => {
+      bytes(yes(api.inbox(what.length)), what.length).set(what);
       yes(take());
     };
     put(scene, api.set_scene);
@@ -54,11 +56,11 @@ for (const figure of document.querySelectorAll("[data-live]")) {
     let at = { ...home }, level = levels.length - 1, times = [], due = 0, turning = 0;
     const camera = () => {
       if (Object.keys(home).every(key => at[key] === home[key])) return first;
-      const bytes = first.slice(), view = new DataView(bytes.buffer);
+      const moved = first.slice(), view = new DataView(moved.buffer);
       const turned = v => rotated(rotated(v, right, at.along), down, at.across);
-      const moved = add(pivot, turned(add(eye, pivot, -1)), at.far);
-      [moved, ...[corner, du, dv].map(turned)].flat().forEach((x, i) => view.setFloat32(4 * i, x, true));
-      return bytes;
+      const stand = add(pivot, turned(add(eye, pivot, -1)), at.far);
+      [stand, ...[corner, du, dv].map(turned)].flat().forEach((x, i) => view.setFloat32(4 * i, x, true));
+      return moved;
     };
 
     canvas.width = width;
@@ -69,8 +71,8 @@ for (const figure of document.querySelectorAll("[data-live]")) {
       const begin = performance.now();
       yes(api.render(level));
       const end = performance.now();
-      const colors = new Uint8ClampedArray(api.memory.buffer, api.rgba(), 4 * api.pixels());
-      context.putImageData(new ImageData(colors, width, height), 0, 0);
+      const colors = bytes(api.rgba(), 4 * api.pixels());
+      context.putImageData(new ImageData(new Uint8ClampedArray(colors.buffer, colors.byteOffset, colors.length), width, height), 0, 0);
       times = [...times.slice(-29), end - begin];
       const mean = times.reduce((sum, x) => sum + x) / times.length;
       const rate = mean > 0 ? `${(width * height / mean / 1000).toPrecision(3)} Mray/s` : "too quick for this clock";
@@ -81,8 +83,7 @@ for (const figure of document.querySelectorAll("[data-live]")) {
     const hashes = levels.map((_, number) => {
       level = number;
       draw();
-      const bytes = new Uint8Array(api.memory.buffer, yes(api.hash()), 32);
-      return [...bytes].map(x => x.toString(16).padStart(2, "0")).join("");
+      return [...bytes(yes(api.hash()), 32)].map(x => x.toString(16).padStart(2, "0")).join("");
     });
     times = [];
     draw();
@@ -139,8 +140,8 @@ for (const figure of document.querySelectorAll("[data-live]")) {
     const held = new Map(), apart = () => { const [p, q] = [...held.values()]; return Math.hypot(p[0] - q[0], p[1] - q[1]); };
     canvas.addEventListener("pointerdown", event => {
       stop();
-      canvas.setPointerCapture(event.pointerId);
       held.set(event.pointerId, [event.clientX, event.clientY]);
+      canvas.setPointerCapture(event.pointerId);
     });
     canvas.addEventListener("pointermove", event => {
       if (!held.has(event.pointerId)) return;
