@@ -1,11 +1,13 @@
 //! Does the page work in a browser: on a phone's width and on a desk's, in the dark, with its script and nothing else? Judged by a
 //! headless Chromium, where there is one (`CGT_CHROMIUM` or `chromium` on the path).
 
+mod browser;
+
+use browser::chromium;
 use contract::{Image, MISS, Size};
 use optimized::Level;
 use std::error::Error;
 use std::path::Path;
-use std::process::Command;
 use verify::chart::{Asked, Chart, Distance, measure};
 use verify::methods::charted;
 use verify::report::{
@@ -16,6 +18,9 @@ use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::stability::data::{Count, Curve, Line, Stability};
 use verify::verdict::{Comparison, Verdict};
+
+/// How long a page may take, of its own time.
+const WAITS: &str = "--virtual-time-budget=8000";
 
 type Made<T> = Result<T, Box<dyn Error>>;
 
@@ -148,22 +153,6 @@ fn page() -> Made<String> {
     Ok(html(&report, &pictures, &parts()?)?)
 }
 
-/// What Chromium says with some arguments; `None` if there is none.
-fn chromium(words: &[&str]) -> Option<Vec<u8>> {
-    let named = std::env::var("CGT_CHROMIUM");
-    let program = named.clone().unwrap_or_else(|_| "chromium".into());
-    let home = tempfile::tempdir().expect("a folder");
-    let profile = format!("--user-data-dir={}", home.path().display());
-    let fixed =
-        ["--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--virtual-time-budget=8000"];
-    let output = Command::new(&program).args(fixed).arg(profile).args(words).output();
-    // One that is named must be there.
-    assert!(output.is_ok() || named.is_err(), "CGT_CHROMIUM is `{program}`, which does not start");
-    let output = output.ok()?;
-    assert!(output.status.success(), "Chromium: {}", String::from_utf8_lossy(&output.stderr));
-    Some(output.stdout)
-}
-
 /// A page about the page: it is opened in a frame of some width, its film is turned, and what came of it becomes the title.
 fn about(page: &str, width: u32) -> String {
     let text = serde_json::to_string(page).expect("text").replace("</", "<\\/");
@@ -193,7 +182,7 @@ fn the_page_works_in_a_browser() -> Made<()> {
     for width in [390, 1280] {
         let file = folder.path().join(format!("about-{width}.html"));
         std::fs::write(&file, about(&page, width))?;
-        let Some(said) = chromium(&["--dump-dom", "--window-size=1400,1000", &address(&file)]) else {
+        let Some(said) = chromium(&[WAITS, "--dump-dom", "--window-size=1400,1000", &address(&file)]) else {
             eprintln!("not judged: the page in a browser: there is no chromium");
             return Ok(());
         };
@@ -225,7 +214,8 @@ fn the_page_works_in_a_browser() -> Made<()> {
     ] {
         let picture = folder.path().join(format!("{name}.png"));
         let shot = format!("--screenshot={}", picture.display());
-        chromium(&[dark, "--window-size=800,3000", &shot, &address(&file)]).ok_or("it was there before")?;
+        chromium(&[WAITS, dark, "--window-size=800,3000", &shot, &address(&file)])
+            .ok_or("it was there before")?;
         let pixels = image::open(&picture)?.to_rgb8();
         let colors: std::collections::HashSet<_> = pixels.pixels().map(|pixel| pixel.0).collect();
         assert!(colors.len() > 50, "{name}: hardly anything is drawn");

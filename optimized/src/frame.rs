@@ -2,6 +2,7 @@
 //! blocks from left to right (the paper's SPUs and their blocks of scanlines), or as many as its tiles are high.
 
 use crate::camera::{BLOCK, CameraLanes, middles};
+use crate::clock::Clock;
 use crate::crew::Crew;
 use crate::event::{Events, RenderError};
 use crate::grid::Memory;
@@ -12,7 +13,7 @@ use crate::settle::ALL;
 use crate::stripe::{NO_COLUMN, Painter, Rect, Stripe};
 use crate::tile::{self, Tiles};
 use contract::{Camera, Image, MISS, Scene, Size};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// A picture and how it came about.
 #[derive(Clone, Debug)]
@@ -38,7 +39,7 @@ struct Left {
     columns: Vec<[u32; 2]>,
 }
 
-/// Where the time of a frame went.
+/// Where the time of a frame went; zero on a target without a clock, which is WebAssembly by itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Times {
     /// Until everything stood that all rays share: the grid, and the spheres as seen from the eye.
@@ -143,7 +144,7 @@ pub fn render<M: Machine + Send + Sync>(
     if let Some(known) = known {
         known.check(scene, camera)?;
     }
-    let start = Instant::now();
+    let start = Clock::start();
     rendering.events = Events::default();
     let seen = Seen::new(m, plan, scene, camera, memory, &mut rendering.events, crew)?;
     rendering.times.build = start.elapsed();

@@ -359,7 +359,7 @@ fn fill_queues<M: Machine>(
     Ok(queues)
 }
 
-/// Count, then write. `None` if there are more entries than u32 can number: a coarser grid is needed.
+/// Count, then write. `None` if there are more entries than u32 can number or memory can hold: a coarser grid is needed.
 fn fill_lists<M: Machine>(
     m: M,
     plan: &Plan,
@@ -382,7 +382,10 @@ fn fill_lists<M: Machine>(
     }
     offsets.push(u32::try_from(entries).ok()?);
     let mut next = offsets.clone();
-    let mut ids = vec![0; usize::try_from(entries).ok()?];
+    // Where addresses have 32 bits, fewer fit than u32 can number. In one cell all spheres of a scene do.
+    let bytes = entries.checked_mul(size_of::<u32>() as u64)?;
+    isize::try_from(bytes).ok()?;
+    let mut ids = vec![0u32; usize::try_from(entries).ok()?];
     for ((id, cells), ball) in (0..).zip(boxes).zip(balls) {
         cells.for_each(plan.voxelizer, axes, ball, |cell| {
             m.beside(Chore::Entry, || {

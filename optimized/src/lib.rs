@@ -68,6 +68,7 @@ pub mod seen;
 
 pub mod shade;
 
+mod clock;
 pub mod crew;
 pub mod event;
 pub mod frame;
@@ -176,6 +177,12 @@ impl Session {
         known: &Known,
     ) -> Result<&Rendering, RenderError> {
         self.frame(scene, camera, Some(known))
+    }
+
+    /// The last frame again; before there was one, a picture of one pixel.
+    #[must_use]
+    pub fn last(&self) -> &Rendering {
+        &self.rendering
     }
 
     fn frame(

@@ -12,7 +12,8 @@ A file of TOML has entries `[[fault]]` with
             or "suite" for what is no tracer
   killer    `binary::test`, with the test's modules between; it may be left out where `fuzz` stands, and --fuzz alone judges
   env       counts for that test, if the everyday ones are too many or too few
-  needs     what the killer cannot do without: an instruction set (avx2, avx512), solver, embree, or fetched data (data)
+  needs     what the killer cannot do without: an instruction set (avx2, avx512), solver, embree, fetched data (data), or Rust's library
+            for WebAssembly and a Chromium (wasm)
   alone     true if it cannot be switched at run time and has a build of its own (see `switches`)
   fuzz      a target of fuzz/ that should find it too
   why       the killer sees it, if that is not plain
@@ -25,7 +26,7 @@ PROPERTIES = set("VOHICXRSBM")
 KEYS = {"name": str, "file": str, "line": str, "becomes": str, "property": str, "killer": str, "within": (str, list),
         "env": dict, "needs": str, "alone": bool, "fuzz": str, "why": str}
 NEEDED = ("name", "file", "line", "becomes", "property")
-NEEDS = ("avx2", "avx512", "solver", "embree", "data")
+NEEDS = ("avx2", "avx512", "solver", "embree", "data", "wasm")
 
 
 class Malformed(Exception):

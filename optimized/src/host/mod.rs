@@ -96,6 +96,7 @@ impl Level {
     /// Its name: `scalar`, `sse2`, `sse4.2`, `avx2`, `avx512`, `neon` or `simd128`.
     #[must_use]
     pub fn name(self) -> &'static str {
+        #[allow(unused_imports, reason = "WebAssembly without SIMD128 has no level of the library's")]
         use fearless_simd::Level as L;
         #[allow(unreachable_patterns, reason = "other targets have other levels")]
         match self.0 {
@@ -118,6 +119,7 @@ impl Level {
 
     /// Does work on this level's machine.
     pub fn run<W: Work>(self, work: W) -> W::Output {
+        #[allow(unused_imports, reason = "WebAssembly without SIMD128 has no level of the library's")]
         use fearless_simd::Level as L;
         #[allow(unreachable_patterns, reason = "other targets have other levels")]
         match self.0 {

@@ -143,6 +143,8 @@ fn integer(x: [u32; LANES], f: impl Fn(f64) -> f64) -> [i32; LANES] {
     )
 }
 
+/// For those lanes that [`super::Truncating`] cannot be certain of.
+#[cfg(target_arch = "x86_64")]
 impl Spu {
     /// x y + z of each lane.
     pub(super) fn fma([x, y, z]: [[u32; LANES]; 3]) -> [u32; LANES] {

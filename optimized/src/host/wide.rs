@@ -21,7 +21,6 @@
 //! inlined ([`three`](crate::machine::three)), which `tests/machine_code.rs` judges. Before that was so, frames took 1.7
 //! times as long at AVX-512 and 2.4 times at AVX2, by their ratios to the naive tracer.
 
-use super::Spu;
 use crate::machine::{LANES, Machine, Site};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x16, i32x16, mask32x16};
@@ -44,11 +43,11 @@ macro_rules! emulated {
     ($($(#[$on:meta])* $level:ident),*) => {$(
         $(#[$on])*
         impl Level for fearless_simd::$level {
-            type Spu = Spu;
+            type Spu = super::Spu;
 
             #[inline(always)]
-            fn spu(self) -> Spu {
-                Spu
+            fn spu(self) -> super::Spu {
+                super::Spu
             }
         }
     )*};

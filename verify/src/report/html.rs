@@ -1,21 +1,23 @@
-//! The report as one HTML page that needs nothing but itself: style inline, pictures as `data:` URIs, and one script that turns films.
-//! A [`Report`], the pictures of its scenes and what else belongs on the page come in, the page goes out. All text is escaped by the template
-//! `templates/report.html`; its content security policy forbids it to load anything, and any script but that one, which it knows by its hash; a page without a film has none.
+//! The report as one HTML page that needs nothing but itself: style inline, pictures as `data:` URIs, and two scripts, one that turns films and
+//! one for a live view. A [`Report`], the pictures of its scenes and what else belongs on the page come in, the page goes out. All text is escaped by
+//! the template `templates/report.html`; its content security policy forbids it to load anything, and any script but these, which it knows by
+//! their hashes. A page without a film lacks the one, and a page without a live view the other and the leave to compile WebAssembly.
 
 use super::film::{Item, items};
 use super::outside;
 use super::pictures::ZOOM_SIDE;
 use super::view::{Badge, HEADINGS, SceneView};
 use super::words::{VERDICTS, sentence};
-use super::{Evidence, Report, ScenePictures};
+use super::{Evidence, Live, Report, ScenePictures};
 use crate::picture::{PALETTE, RARE};
 use askama::Template;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use sha2::{Digest, Sha256};
 
-/// The page's script.
+/// The page's scripts.
 const SCRIPT: &str = include_str!("../../templates/report.js");
+const LIVE_SCRIPT: &str = include_str!("../../templates/live.js");
 
 /// A chapter of the page that other modules wrote, in the style of this one.
 #[derive(Clone, Debug)]
@@ -46,9 +48,10 @@ struct Page<'a> {
     scenes: &'a [SceneView<'a>],
     items: Vec<Item<'a>>,
     parts: &'a [Part],
-    turns: bool,
-    script: &'static str,
-    script_hash: String,
+    live: Option<&'a Live>,
+    /// What the policy allows; empty if there is no script.
+    policy: String,
+    scripts: Vec<&'static str>,
 }
 
 /// The page. `pictures` has one entry for each scene; what lacks is left out of the page. `parts` follow the scenes.
@@ -61,6 +64,10 @@ pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Resu
     let scenes: Vec<SceneView<'_>> =
         scenes.map(|(k, scene)| SceneView::new(k + 1, scene, pictures.get(k).unwrap_or(&none))).collect();
     let items = items(&scenes);
+    let turns = items.iter().any(|item| matches!(item, Item::Film(_)));
+    let live = pictures.first().and_then(|set| set.live.as_ref());
+    let scripts: Vec<&str> =
+        turns.then_some(SCRIPT).into_iter().chain(live.is_some().then_some(LIVE_SCRIPT)).collect();
     let page = Page {
         report,
         badge: report.verdict.into(),
@@ -83,14 +90,24 @@ pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Resu
         zoom_side: ZOOM_SIDE,
         evidence: Evidence::ALL.iter().map(|kind| (kind.word(), rests_on(report, *kind))).collect(),
         columns: columns(report),
-        turns: items.iter().any(|item| matches!(item, Item::Film(_))),
+        live,
+        policy: policy(&scripts, live.is_some()),
         items,
         scenes: &scenes,
         parts,
-        script: SCRIPT,
-        script_hash: BASE64_STANDARD.encode(Sha256::digest(SCRIPT)),
+        scripts,
     };
     page.render()
+}
+
+/// What of its content security policy depends on the page: these scripts, and whether they may compile WebAssembly.
+fn policy(scripts: &[&str], compiles: bool) -> String {
+    if scripts.is_empty() {
+        return String::new();
+    }
+    let hash = |script: &&str| format!(" 'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(script)));
+    let hashes: String = scripts.iter().map(hash).collect();
+    format!("; script-src{hashes}{}", if compiles { " 'wasm-unsafe-eval'" } else { "" })
 }
 
 /// How often each verdict was given, zeros included; known faults are not counted.

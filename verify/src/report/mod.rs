@@ -12,6 +12,7 @@ mod film;
 mod folder;
 mod html;
 mod json;
+mod live;
 mod names;
 mod outside;
 mod pictures;
@@ -26,6 +27,7 @@ pub use data::{
 pub use folder::{Paths, ReportError, write};
 pub use html::{Part, html};
 pub use json::json;
+pub use live::{Live, LiveError, MAX_MODULE, MAX_SPHERES, Module};
 pub use names::sanitized;
 pub use pictures::ScenePictures;
 pub use text::{TEXT_WIDTH, text};

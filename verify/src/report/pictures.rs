@@ -2,6 +2,7 @@
 //! then forget it. Images come in; what is kept is PNG bytes for the page and for the files beside it.
 //! An image that does not have the truth's size is refused.
 
+use super::Live;
 use crate::picture::{PictureError, canvas, join, panels, png, zoom};
 use contract::Image;
 
@@ -10,9 +11,11 @@ pub(super) const ZOOM_SIDE: u32 = 21;
 /// How many times it is magnified.
 const ZOOM_SCALE: u32 = 16;
 
-/// Pictures of the truth and of the subjects, in the order of [`SceneReport::subjects`](super::SceneReport).
+/// Pictures of the truth and of the subjects, in the order of [`SceneReport::subjects`](super::SceneReport), and a live one.
 #[derive(Clone, Debug, Default)]
 pub struct ScenePictures {
+    /// What the page carries so that the scene can be turned; the page shows that of its first scene.
+    pub live: Option<Live>,
     pub(super) truth: Option<Vec<u8>>,
     pub(super) subjects: Vec<Option<SubjectPictures>>,
 }
@@ -37,7 +40,7 @@ impl ScenePictures {
     /// # Errors
     /// [`PictureError`] if its layers do not fit its size.
     pub fn new(truth: &Image) -> Result<Self, PictureError> {
-        Ok(Self { truth: Some(png(&canvas(truth)?)?), subjects: Vec::new() })
+        Ok(Self { truth: Some(png(&canvas(truth)?)?), ..Self::default() })
     }
 
     /// Adds the next subject's picture, held against the truth.

@@ -220,6 +220,9 @@ pub(crate) struct Verify {
     /// folder, with its picture and an account; `cgt replay` judges it again
     #[arg(long, value_name = "FOLDER")]
     pub(crate) keep: Option<PathBuf>,
+    /// The tracer as a WebAssembly module, as `verify/live/build` makes it: the first scene can then be turned on the page
+    #[arg(long, value_name = "FILE")]
+    pub(crate) live: Option<PathBuf>,
     /// Folder of the report; files of the same names in it are replaced
     #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
     pub(crate) out: PathBuf,
@@ -252,6 +255,9 @@ pub(crate) struct Report {
     /// Threads that make pictures, at most 1024; 0 is one a core. What is timed has one
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = value_parser!(u16).range(..=1024))]
     pub(crate) threads: u16,
+    /// The tracer as a WebAssembly module, as `verify/live/build` makes it: the first scene can then be turned on the page
+    #[arg(long, value_name = "FILE")]
+    pub(crate) live: Option<PathBuf>,
     /// Folder of the report, with the data of each chapter beside it; files of the same names in it are replaced
     #[arg(long, value_name = "FOLDER", default_value = "cgt-report")]
     pub(crate) out: PathBuf,

@@ -1,6 +1,6 @@
 //! `cgt report`: everything the suite finds out, on one page that opens offline, with the data of each chapter beside it.
 
-use super::verify::{judged, load};
+use super::verify::{judged, live, load};
 use super::{ablate, bench, chart, claims, distinct, figures, files, stability};
 use crate::args::{self, or_few};
 use crate::environment::environment;
@@ -19,7 +19,7 @@ use verify::paper::record::{self, Record};
 use verify::picture::{check_folder, write_atomically};
 use verify::prove::run::{Proofs, run as prove};
 use verify::prove::solver::Solver;
-use verify::report::{Absent, Part, Report, SCHEMA_VERSION, overall, text, write};
+use verify::report::{Absent, Module, Part, Report, SCHEMA_VERSION, overall, text, write};
 use verify::seed::seed;
 use verify::spu::curves::{Asked as Curves, POINTS, curves};
 use verify::spu::data::{self, Report as Machine};
@@ -46,6 +46,7 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     };
     let view = args::View { size: Some(size), threads: args.threads, ..args::View::default() };
     let threads = view.threads();
+    let module = args.live.as_deref().map(Module::read).transpose()?;
     chapter("pictures");
     let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
     let mut subjects = subjects(level);
@@ -53,7 +54,9 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     let subjects: Vec<&dyn Subject> = subjects.iter().map(AsRef::as_ref).collect();
     distinct(subjects.iter().map(|subject| subject.name()))?;
     for word in &names {
-        let (report, set) = judged(word, &view, &subjects, &[])?;
+        let live = live(module.as_ref().filter(|_| scenes.is_empty()), word, &view)?;
+        let (report, mut set) = judged(word, &view, &subjects, &[])?;
+        set.live = live;
         scenes.push(report);
         pictures.push(set);
     }

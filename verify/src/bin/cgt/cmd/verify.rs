@@ -15,7 +15,9 @@ use verify::case::{self, Case, worst};
 use verify::claims::claims;
 use verify::judge::outside::Witness;
 use verify::picture::check_folder;
-use verify::report::{Absent, Report, SCHEMA_VERSION, ScenePictures, SceneReport, overall, text, write};
+use verify::report::{
+    Absent, Live, Module, Report, SCHEMA_VERSION, ScenePictures, SceneReport, overall, text, write,
+};
 use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
@@ -31,6 +33,7 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     let (judges, absent) = outside(args);
     let witnesses: Vec<&dyn Witness> = judges.iter().map(AsRef::as_ref).collect();
     check_folder(&args.out)?;
+    let module = args.live.as_deref().map(Module::read).transpose()?;
     let (mut scenes, mut pictures, mut kept) = (Vec::new(), Vec::new(), Vec::new());
     for word in &args.scenes {
         // What is not there is told before anything is rendered.
@@ -39,7 +42,9 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
         }
         for frame in args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1) {
             let view = View { frame, ..args.view.clone() };
-            let (report, set) = judged(word, &view, &subjects, &witnesses)?;
+            let live = live(module.as_ref().filter(|_| scenes.is_empty()), word, &view)?;
+            let (report, mut set) = judged(word, &view, &subjects, &witnesses)?;
+            set.live = live;
             if let Some(folder) = &args.keep {
                 keep(word, &view, &subjects, &report, folder, &mut kept)?;
             }
@@ -141,6 +146,13 @@ pub(crate) fn expected(promise: &Promise) -> Verdict {
         Promise::Exact => Verdict::Equal,
         Promise::Rounded(_) | Promise::EqualToNaive(_) => Verdict::WithinBound,
     }
+}
+
+/// A live view of a frame, if there is a module for one.
+pub(crate) fn live(module: Option<&Module>, word: &str, view: &View) -> Result<Option<Live>, Failure> {
+    let Some(module) = module else { return Ok(None) };
+    let (loaded, scene) = load(word, view.frame)?;
+    Ok(Some(Live::new(module, &scene, &loaded.camera(&view.framing())?)?))
 }
 
 /// The outside judges that were asked for and are there, and those that will not speak.
