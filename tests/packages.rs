@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Packages, and the folders of their sources.
-const PACKAGES: [(&str, &str); 4] = [
+const PACKAGES: [(&str, &str); 5] = [
+    ("live", "verify/live"),
     ("contract", "verify/contract"),
     ("reference", "reference"),
     ("optimized", "optimized"),
