@@ -9,7 +9,7 @@ use verify::prove::solver::Solver;
 use verify::scenes::catalogue::{Data, ENTRIES};
 
 /// Commands that are not run here, and why. Each must occur, and each script of them must be there to be run.
-const NOT_RUN: [(&str, &str); 16] = [
+const NOT_RUN: [(&str, &str); 18] = [
     ("tests/run", "it is what runs this test"),
     ("tests/fetch-data", "it needs a network"),
     ("tests/run --long", "it takes ten minutes"),
@@ -34,6 +34,14 @@ const NOT_RUN: [(&str, &str); 16] = [
     (
         "cgt campaign merge --plan docs/campaigns/hunt.toml shards --out report",
         "it needs all shards; tests/campaign.rs merges smaller ones",
+    ),
+    (
+        "verify/live/build --out live.wasm",
+        "it needs Rust's library for WebAssembly; tests/live.rs runs it, where that is",
+    ),
+    (
+        "cargo run --release -- verify 1hvr --plan fast --live live.wasm",
+        "it needs what the line before makes; tests/live.rs runs it",
     ),
     ("cargo install --path verify", "it builds everything again, and changes the user's own folder"),
     ("cargo run --release -- report", "it takes five minutes; a small report is run in its place"),
