@@ -109,6 +109,18 @@ pub enum Chore {
     Owner,
     /// Sixteen colours are packed.
     Pixels,
+    /// What follows, until the next such note, are answers of the block whose first pixel is (x, y). It costs nothing.
+    Block([u32; 2]),
+    /// A lane of the block that f32 left open is settled ([`crate::settle`]). It costs nothing, since whoever counts has counted it
+    /// already.
+    Settled {
+        /// Which lane.
+        lane: usize,
+        /// Whether f32 had marked it, so that f64 was asked which sphere it hits; else only its t was open.
+        marked: bool,
+        /// Whether integers were asked too, for the sphere or for the rounding of t.
+        integers: bool,
+    },
 }
 
 /// Sixteen lanes and what can be done with them.

@@ -163,7 +163,7 @@ impl Question<'_> {
         let mut answers = Answers { t, owners };
         if unsettled | marked != 0 {
             let (mut t, mut id) = (m.to_array(answers.t), m.to_array_i(answers.owners.id));
-            self.finish(marked, unsettled, possible, &mut t, &mut id, counts);
+            self.finish(m, marked, unsettled, possible, &mut t, &mut id, counts);
             answers = Answers::new(m, m.lanes(t), m.lanes_i(id), self.spheres);
         }
         answers
@@ -171,8 +171,10 @@ impl Question<'_> {
 
     /// Settles what is left, lane by lane.
     #[cold]
-    fn finish(
+    #[allow(clippy::too_many_arguments, reason = "as of `settle`")]
+    fn finish<M: Machine>(
         &self,
+        m: M,
         marked: u32,
         unsettled: u32,
         possible: &[u32],
@@ -181,12 +183,22 @@ impl Question<'_> {
         counts: &mut Counts,
     ) {
         for lane in 0..LANES {
-            if marked >> lane & 1 != 0 {
+            let by_integers = counts.by_integers();
+            let marked = marked >> lane & 1 != 0;
+            if marked {
                 counts.asked_f64 += 1;
                 (t[lane], id[lane]) = self.by_f64(lane, possible, counts);
             } else if unsettled >> lane & 1 != 0 {
                 t[lane] = self.root_of(lane, id[lane].unsigned_abs(), counts);
+            } else {
+                continue;
             }
+            let integers = counts.by_integers() != by_integers;
+            m.beside(
+                Chore::Settled { lane, marked, integers },
+                #[inline(always)]
+                || (),
+            );
         }
     }
 

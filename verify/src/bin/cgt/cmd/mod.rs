@@ -14,6 +14,7 @@ pub(crate) mod scenes;
 pub(crate) mod spu;
 pub(crate) mod stability;
 pub(crate) mod verify;
+pub(crate) mod view;
 
 use std::io::Write;
 use std::process::ExitCode;
