@@ -52,8 +52,8 @@ pub fn difference(truth: &Image, subject: &Image) -> Result<RgbaImage, PictureEr
     let (width, height) = (truth.size.width(), truth.size.height());
     Ok(RgbaImage::from_fn(width, height, |x, y| {
         let index = y as usize * width as usize + x as usize;
-        let [r, g, b, _] = truth.rgba[index];
-        let [r, g, b] = fault_at(truth, subject, index).map_or_else(|| dimmed([r, g, b]), fault_color);
+        let [r, g, b] =
+            fault_at(truth, subject, index).map_or_else(|| dimmed(truth.rgba[index]), fault_color);
         Rgba([r, g, b, 255])
     }))
 }
@@ -82,7 +82,7 @@ pub fn bold_difference(truth: &Image, subject: &Image) -> Result<RgbaImage, Pict
 }
 
 /// Grey of about the same lightness, in the range 24 to 88 of 255, so that every fault outshines it.
-pub(crate) fn dimmed([r, g, b]: [u8; 3]) -> [u8; 3] {
+pub(crate) fn dimmed([r, g, b, _]: [u8; 4]) -> [u8; 3] {
     let luma = (u32::from(r) * 54 + u32::from(g) * 183 + u32::from(b) * 19) >> 8;
     [u8::try_from(24 + luma / 4).unwrap_or(u8::MAX); 3]
 }

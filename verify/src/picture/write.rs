@@ -94,6 +94,12 @@ impl AtomicFile {
         Ok(Self { path: at(), file, bytes: 0, failed: None })
     }
 
+    /// Whether a write has failed, which [`AtomicFile::finish`] tells with the file's name.
+    #[must_use]
+    pub fn has_failed(&self) -> bool {
+        self.failed.is_some()
+    }
+
     /// Gives it its name, in place of a file that may be there.
     ///
     /// # Errors

@@ -98,7 +98,8 @@ impl Canvas {
     /// Makes all of it grey, as light as it was in a range that every colour outshines.
     pub fn dim(&mut self) {
         for pixel in &mut self.pixels {
-            *pixel = packed(crate::picture::dimmed(channels(*pixel)));
+            let [r, g, b] = channels(*pixel);
+            *pixel = packed(crate::picture::dimmed([r, g, b, 255]));
         }
     }
 }

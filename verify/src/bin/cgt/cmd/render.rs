@@ -41,16 +41,16 @@ pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
     let announced = Announced { size: camera.size(), frames: u32::try_from(frames.len())?, fps: args.fps };
     let tick = progress::bar(&args.scene, "render", rows.saturating_mul(announced.frames));
     let mut hand = Hand::new(args.method, args.view.threads())?;
-    let scenes = frames.clone().zip(&loaded.animation.frames()[frames.clone()]);
+    let scenes = loaded.animation.frames()[frames.clone()].iter();
     let told = match target {
         Target::Picture(encode) => {
-            for (_, scene) in scenes {
+            for scene in scenes {
                 write_atomically(&args.file, &encode(hand.draw(scene, &camera, &*tick)?)?)?;
             }
             format!("wrote {}\n", args.file.display())
         }
         Target::Numbered(pattern, encode) => {
-            for (frame, scene) in scenes {
+            for (frame, scene) in frames.clone().zip(scenes) {
                 write_atomically(&pattern.path(frame), &encode(hand.draw(scene, &camera, &*tick)?)?)?;
             }
             let [first, last] = [frames.start, frames.end - 1].map(|frame| pattern.path(frame));
@@ -58,43 +58,41 @@ pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
         }
         Target::Film(format) => {
             let mut file = AtomicFile::new(&args.file)?;
-            let mut film = Film::new(format, announced, &mut file)?;
-            for (_, scene) in scenes {
-                film.frame(hand.draw(scene, &camera, &*tick)?)?;
+            let shot = shoot(format, announced, &mut file, scenes, &mut hand, &camera, &*tick);
+            // A full disk is told by the file, which knows its own name.
+            if shot.is_ok() || file.has_failed() {
+                file.finish()?;
             }
-            film.finish()?;
-            file.finish()?;
+            shot?;
             format!("wrote {}, {} frames\n", args.file.display(), announced.frames)
         }
         Target::Pipe => {
             let mut pipe = Pipe { closed: false };
-            let mut frames = scenes.map(|(_, scene)| scene);
-            let written = piped(&mut pipe, announced, &mut frames, &mut hand, &camera, &*tick);
-            // Who reads has had enough.
-            if !pipe.closed {
-                written?;
-            }
-            return Ok(ExitCode::SUCCESS);
+            let shot = shoot(Format::Y4m, announced, &mut pipe, scenes, &mut hand, &camera, &*tick);
+            let shot = shot.and_then(|()| Ok(pipe.flush()?));
+            // Who reads may have had enough.
+            return if pipe.closed { Ok(ExitCode::SUCCESS) } else { shot.map(|()| ExitCode::SUCCESS) };
         }
     };
     say(&told)?;
     Ok(ExitCode::SUCCESS)
 }
 
-fn piped<'a>(
-    pipe: &mut Pipe,
+/// Draws all frames into a film.
+fn shoot<'a>(
+    format: Format,
     announced: Announced,
-    scenes: &mut dyn Iterator<Item = &'a Scene>,
+    to: impl Write,
+    scenes: impl Iterator<Item = &'a Scene>,
     hand: &mut Hand,
     camera: &Camera,
     tick: &(dyn Fn() + Sync),
 ) -> Result<(), Failure> {
-    let mut film = Film::new(Format::Y4m, announced, &mut *pipe)?;
+    let mut film = Film::new(format, announced, to)?;
     for scene in scenes {
         film.frame(hand.draw(scene, camera, tick)?)?;
     }
-    film.finish()?;
-    Ok(pipe.flush()?)
+    Ok(film.finish()?)
 }
 
 /// By the file's name, and whether several frames are asked for.
