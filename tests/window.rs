@@ -379,12 +379,16 @@ fn overlays_arrive_in_the_window() {
             shown.shoot(&format!("{name}-{}", plan.name()));
         }
     }
-    let shown = display.view("1hvr --size 1280x720 --paused --wipe --overlay times");
-    std::thread::sleep(Duration::from_millis(500));
-    shown.shoot("wipe");
-    let timed = display.view("2juy --size 1280x720 --overlay times,cells --plan paper");
-    std::thread::sleep(Duration::from_millis(800));
-    timed.shoot("times");
+    for (words, name) in [
+        ("1hvr --size 1280x720 --paused --wipe --overlay times", "wipe"),
+        ("2juy --size 1280x720 --overlay times,cells --plan paper", "times"),
+    ] {
+        if std::env::var_os("CGT_SHOTS").is_some() {
+            let shown = display.view(words);
+            std::thread::sleep(Duration::from_millis(800));
+            shown.shoot(name);
+        }
+    }
 }
 
 /// A limited run tells how fast it was, in a window and without one.

@@ -32,6 +32,14 @@ pub enum Command {
     Quit,
 }
 
+impl Command {
+    /// Whether a key that is held asks it again and again.
+    #[must_use]
+    pub fn repeats(self) -> bool {
+        matches!(self, Self::Step(_) | Self::Camera(_) | Self::MoveWipe(_))
+    }
+}
+
 /// What can be laid over the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Overlay {

@@ -7,7 +7,7 @@
 
 use crate::scenes::frame::{Framing, FramingError};
 use contract::{Camera, Size, Sphere};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 type Vector = [f64; 3];
 
@@ -105,7 +105,7 @@ impl Orbit {
         let place = &mut self.place;
         match by {
             Move::Orbit([right, up]) => {
-                place.azimuth += right.to_radians();
+                place.azimuth = (place.azimuth + right.to_radians()).rem_euclid(TAU);
                 place.elevation = (place.elevation + up.to_radians()).clamp(-STEEPEST, STEEPEST);
             }
             Move::Pan(pixels) => {

@@ -99,9 +99,10 @@ impl State {
         self.level = (self.level + 1) % self.levels.len();
     }
 
-    /// More threads or less, from one to twice as many as there are cores.
+    /// More threads or less, from one to twice as many as there are cores, or four.
     pub fn more_threads(&mut self, by: i32) {
-        let most = 2 * std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let most = (2 * cores).max(4);
         let by = isize::try_from(by).unwrap_or(0);
         self.threads = self.threads.saturating_add_signed(by).clamp(1, most.max(self.threads));
     }

@@ -60,6 +60,8 @@ pub struct Viewer {
     screen: Canvas,
     shown: Option<Shown>,
     split: Split,
+    /// What writing the words of [`Viewer::write`] took.
+    words: Duration,
     wrong: Option<wrong::Wrong>,
     /// Of the last frames that were shown, when each was finished.
     finished: Vec<Instant>,
@@ -119,6 +121,7 @@ impl Viewer {
             screen: Canvas::new(camera.size()),
             shown: None,
             split: Split::default(),
+            words: Duration::ZERO,
             wrong: None,
             finished: Vec::new(),
         }
@@ -185,7 +188,7 @@ impl Viewer {
     /// Where the time of the last frame went.
     #[must_use]
     pub fn split(&self) -> Split {
-        self.split
+        Split { overlay: self.split.overlay + self.words, ..self.split }
     }
 
     /// How many pixels of the last frame differed from the exact ones, if that was asked.
@@ -345,10 +348,11 @@ impl Viewer {
         Ok(())
     }
 
-    /// Writes times and keys over what was drawn, if they are shown; they change though nothing else does.
-    pub fn write(&mut self) {
+    /// Writes times and keys over what was drawn, if they are shown, and whether they are; they change though nothing else does.
+    pub fn write(&mut self) -> bool {
         if !self.has_words() {
-            return;
+            self.words = Duration::ZERO;
+            return false;
         }
         let start = Instant::now();
         self.screen.copy(&self.base);
@@ -363,13 +367,15 @@ impl Viewer {
                 format!("{plan}, {}, {} threads", self.state.level(), self.state.threads),
                 format!("{:.0} frames a second shown", self.fps()),
             ];
-            times::draw(&mut self.screen, head, &self.split);
+            let split = self.split();
+            times::draw(&mut self.screen, head, &split);
         }
         if self.state.shows(Overlay::Help) {
             let lines: Vec<Line> = help().into_iter().map(Line::from).collect();
             panel(&mut self.screen, Corner::Middle, &lines);
         }
-        self.split.overlay += start.elapsed();
+        self.words = start.elapsed();
+        true
     }
 
     /// Plays frame after frame, each once, without a window, as fast as it can; `tick` is called after each.
@@ -405,7 +411,7 @@ impl Viewer {
         let start = Instant::now();
         show(self)?;
         self.presented(start.elapsed());
-        run.splits.push(self.split);
+        run.splits.push(self.split());
         Ok(())
     }
 }

@@ -2,15 +2,19 @@
 //! viewer, what it draws is shown pixel by pixel; the picture follows the window's size. Without a display there is a typed error.
 
 use super::clock::{Limit, Run};
-use super::command::{Press, asked};
+use super::command::{Command, Press, asked};
 use super::viewer::{ViewError, Viewer};
 use contract::Size;
-use minifb::{Key, KeyRepeat, MouseButton, MouseMode, ScaleMode, Window, WindowOptions};
+use minifb::{InputCallback, Key, MouseButton, MouseMode, ScaleMode, Window, WindowOptions};
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// Between two looks at keys and clock.
 const TICK: Duration = Duration::from_micros(8_000);
+/// After which a picture is shown again though it is the same: another window may have lain over it.
+const AGAIN: Duration = Duration::from_millis(100);
 /// Between two titles.
 const TITLE: Duration = Duration::from_millis(250);
 
@@ -42,11 +46,14 @@ pub fn show(viewer: &mut Viewer, limit: Limit) -> Result<Run, WindowError> {
     let mut window = Window::new(&viewer.title(), width, height, options).map_err(lost)?;
     // What paces is the clock below, so that no wait counts as the window's time.
     window.set_target_fps(0);
+    let keys = Keys::default();
+    window.set_input_callback(Box::new(keys.clone()));
     let (mut run, begin) = (Run::default(), Instant::now());
     let (mut last, mut titled) = (begin, begin);
+    let mut shown: Option<Instant> = None;
     let mut mouse = Mouse::default();
     while window.is_open() && !limit.reached(run.splits.len(), begin.elapsed()) {
-        if !pressed(&window, viewer) {
+        if !keys.take().into_iter().all(|command| viewer.command(command)) {
             break;
         }
         mouse.moved(&window, viewer);
@@ -56,11 +63,16 @@ pub fn show(viewer: &mut Viewer, limit: Limit) -> Result<Run, WindowError> {
             viewer.player.advance(now - last);
             last = now;
             let drawn = viewer.draw()?;
-            viewer.write();
-            let start = Instant::now();
-            present(&mut window, viewer)?;
-            if drawn {
-                viewer.presented(start.elapsed());
+            let written = viewer.write();
+            if drawn || written || shown.is_none_or(|shown| shown.elapsed() > AGAIN) {
+                let start = Instant::now();
+                present(&mut window, viewer)?;
+                shown = Some(start);
+                if drawn {
+                    viewer.presented(start.elapsed());
+                }
+            } else {
+                window.update();
             }
             std::thread::sleep(TICK.saturating_sub(last.elapsed()));
         } else {
@@ -90,10 +102,40 @@ fn present(window: &mut Window, viewer: &Viewer) -> Result<(), WindowError> {
     window.update_with_buffer(canvas.pixels(), width, height).map_err(lost)
 }
 
-/// Does what was pressed; whether that is not to end.
-fn pressed(window: &Window, viewer: &mut Viewer) -> bool {
-    let keys = window.get_keys_pressed(KeyRepeat::Yes);
-    keys.into_iter().filter_map(press).filter_map(asked).all(|command| viewer.command(command))
+/// What was pressed, in its order: none is lost, however long a frame takes and however shortly a key is down.
+#[derive(Clone, Default)]
+struct Keys(Rc<RefCell<Pressed>>);
+
+#[derive(Default)]
+struct Pressed {
+    held: Vec<Key>,
+    asked: Vec<Command>,
+}
+
+impl Keys {
+    /// What has been asked since.
+    fn take(&self) -> Vec<Command> {
+        std::mem::take(&mut self.0.borrow_mut().asked)
+    }
+}
+
+impl InputCallback for Keys {
+    fn add_char(&mut self, _: u32) {}
+
+    fn set_key_state(&mut self, key: Key, down: bool) {
+        let pressed = &mut *self.0.borrow_mut();
+        let held = pressed.held.contains(&key);
+        if !down {
+            pressed.held.retain(|other| *other != key);
+        } else if let Some(command) = press(key).and_then(asked)
+            && (!held || command.repeats())
+        {
+            pressed.asked.push(command);
+        }
+        if down && !held {
+            pressed.held.push(key);
+        }
+    }
 }
 
 /// The picture takes the window's size, if it may have that.
