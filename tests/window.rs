@@ -158,6 +158,15 @@ impl Shown<'_> {
         }
     }
 
+    /// Puts the mouse on a pixel of the window.
+    fn point(&self, [x, y]: [i16; 2]) {
+        let server = &self.display.server;
+        let root = server.setup().roots[0].root;
+        let place = server.translate_coordinates(self.window, root, x, y).expect("a request");
+        let place = place.reply().expect("an answer");
+        self.send(6, 0, [place.dst_x, place.dst_y]);
+    }
+
     /// Sends an event as a device would: 2, 3 a key down, up; 4, 5 a button; 6 the mouse.
     fn send(&self, kind: u8, detail: u8, [x, y]: [i16; 2]) {
         let root = self.display.server.setup().roots[0].root;
@@ -312,11 +321,11 @@ fn the_mouse_reaches_it() {
     let first = exact("1hvr", "320x180", 0);
     shown.until("the exact picture", |seen| seen == first);
     let drag = |button: u8, from: [i16; 2], to: [i16; 2]| {
-        shown.send(6, 0, from);
+        shown.point(from);
         std::thread::sleep(Duration::from_millis(100));
         shown.send(4, button, [0; 2]);
         std::thread::sleep(Duration::from_millis(100));
-        shown.send(6, 0, to);
+        shown.point(to);
         std::thread::sleep(Duration::from_millis(100));
         shown.send(5, button, [0; 2]);
     };
@@ -358,11 +367,13 @@ fn the_mouse_reaches_it() {
     shown.quit();
 }
 
-/// Every overlay at the size that is looked at; what is drawn is what the library draws.
+/// Every overlay, for screenshots as large as one is looked at; what is shown is what the library draws.
 #[test]
 fn overlays_arrive_in_the_window() {
     let Some(display) = Display::new() else { return };
-    let size = [1280, 720];
+    let large = std::env::var_os("CGT_SHOTS").is_some();
+    let size = if large { [1280, 720] } else { [320, 180] };
+    let pixels = format!("{}x{}", size[0], size[1]);
     for (overlay, name) in Overlay::ALL {
         if [Overlay::Times, Overlay::Help].contains(&overlay) {
             continue;
@@ -383,7 +394,7 @@ fn overlays_arrive_in_the_window() {
         ("1hvr --size 1280x720 --paused --wipe --overlay times", "wipe"),
         ("2juy --size 1280x720 --overlay times,cells --plan paper", "times"),
     ] {
-        if std::env::var_os("CGT_SHOTS").is_some() {
+        if large {
             let shown = display.view(words);
             std::thread::sleep(Duration::from_millis(800));
             shown.shoot(name);

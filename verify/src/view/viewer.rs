@@ -6,6 +6,7 @@ use super::clock::{Limit, Run, Split};
 use super::command::{Command, Overlay, help};
 use super::orbit::{Move, Orbit};
 use super::overlay::heat::{self, Quantity};
+use super::overlay::wrong::Marked;
 use super::overlay::{blocks, fallback, times, wrong};
 use super::player::Player;
 use super::state::State;
@@ -288,8 +289,10 @@ impl Viewer {
             self.base.take(&truth.image, column..width);
             split.copy = start.elapsed();
             let start = Instant::now();
-            let wrong = wrong::draw(&mut self.base, &truth.image, &paper.image, column);
-            lines.extend(wrong::words(&wrong, "the paper's plan (left)", camera.size().pixels()));
+            // The paper's t is rounded almost everywhere; that would leave nothing of its picture.
+            let marked = if self.state.shows(Overlay::Wrong) { Marked::All } else { Marked::Spheres };
+            let wrong = wrong::draw(&mut self.base, &truth.image, &paper.image, column, marked);
+            lines.extend(wrong::words(&wrong, "the paper's plan (left)", camera.size().pixels(), marked));
             self.wrong = Some(wrong);
             line(&mut self.base, column);
             split.overlay += start.elapsed();
@@ -306,8 +309,8 @@ impl Viewer {
             let scene = &self.animation.frames()[wanted.frame];
             let shown = self.tracers.shown.render(*plan, how, scene, camera)?;
             let truth = self.tracers.exact.render(exact, how, scene, camera)?;
-            let wrong = wrong::draw(&mut self.base, &truth.image, &shown.image, width);
-            lines.extend(wrong::words(&wrong, &self.state.words(), camera.size().pixels()));
+            let wrong = wrong::draw(&mut self.base, &truth.image, &shown.image, width, Marked::All);
+            lines.extend(wrong::words(&wrong, &self.state.words(), camera.size().pixels(), Marked::All));
             if plan.arithmetic == Arithmetic::Certified && plan.packet == exact.packet {
                 lines.push(Line::from("(this is the exact plan itself; P shows others)".to_owned()));
             }

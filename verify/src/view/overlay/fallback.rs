@@ -1,7 +1,7 @@
-//! The rays that f32 left open, each pixel in the colour of what settled it, on the picture dimmed to grey. There are few, so each has a white
+//! The rays that f32 left open, each pixel in the colour of what settled it, on the picture dimmed to grey. There are few, so each has a darker
 //! frame round it, which leaves its neighbours as they are.
 
-use crate::view::canvas::Canvas;
+use crate::view::canvas::{Canvas, blended};
 use crate::view::tally::{Fallback, Tally};
 use crate::view::text::Line;
 use optimized::plan::{Arithmetic, Plan};
@@ -55,7 +55,7 @@ fn frame(canvas: &mut Canvas, lane: &Fallback) {
     for along in -FRAME..=FRAME {
         for (dx, dy) in [(along, -FRAME), (along, FRAME), (-FRAME, along), (FRAME, along)] {
             if let (Ok(x), Ok(y)) = (u32::try_from(x + dx), u32::try_from(y + dy)) {
-                canvas.put(x, y, [0xB0; 3]);
+                canvas.put(x, y, blended([0; 3], color(lane), 208));
             }
         }
     }
