@@ -380,7 +380,7 @@ fn overlays_arrive_in_the_window() {
         }
         for plan in [NamedPlan::Fast, NamedPlan::Paper] {
             let words =
-                format!("1hvr --size 1280x720 --paused --overlay {name} --plan {} --threads 2", plan.name());
+                format!("1hvr --size {pixels} --paused --overlay {name} --plan {} --threads 2", plan.name());
             let shown = display.view(&words);
             let mut same = viewer("1hvr", size, 0);
             same.state.plan = plan;
@@ -396,6 +396,7 @@ fn overlays_arrive_in_the_window() {
     ] {
         if large {
             let shown = display.view(words);
+            shown.until("anything", |seen| seen.iter().any(|pixel| *pixel != 0));
             std::thread::sleep(Duration::from_millis(800));
             shown.shoot(name);
         }

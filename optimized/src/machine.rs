@@ -111,15 +111,15 @@ pub enum Chore {
     Pixels,
     /// What follows, until the next such note, are answers of the block whose first pixel is (x, y). It costs nothing.
     Block([u32; 2]),
-    /// A lane of the block that f32 left open is settled ([`crate::settle`]). It costs nothing, since whoever counts has counted it
-    /// already.
+    /// Lanes of the block that f32 or the short way to t left open are settled ([`crate::settle`]): bit i is lane i. It costs nothing, since
+    /// whoever counts has counted it already.
     Settled {
-        /// Which lane.
-        lane: usize,
-        /// Whether f32 had marked it, so that f64 was asked which sphere it hits; else only its t was open.
-        marked: bool,
-        /// Whether integers were asked too, for the sphere or for the rounding of t.
-        integers: bool,
+        /// Marked by f32, so that f64 was asked which sphere they hit.
+        marked: u32,
+        /// Of known spheres, so that f64 was asked for t by the longer way.
+        only_t: u32,
+        /// Of both, those for which integers were asked too, for the sphere or for the rounding of t.
+        integers: u32,
     },
 }
 

@@ -75,11 +75,14 @@ impl Listener for Lanes<'_> {
     fn chore(self, chore: Chore) {
         match chore {
             Chore::Block(at) => self.0.borrow_mut().block = at,
-            Chore::Settled { lane, marked, integers } => {
+            Chore::Settled { marked, only_t, integers } => {
                 let heard = &mut *self.0.borrow_mut();
-                let lane = u32::try_from(lane).unwrap_or(0);
-                let [column, row] = [heard.block[0] + lane % BLOCK, heard.block[1] + lane / BLOCK];
-                heard.fallbacks.push(Fallback { row, column, marked, integers });
+                let has = |bits: u32, lane: u32| bits >> lane & 1 != 0;
+                for lane in (0..BLOCK * BLOCK).filter(|lane| has(marked | only_t, *lane)) {
+                    let [column, row] = [heard.block[0] + lane % BLOCK, heard.block[1] + lane / BLOCK];
+                    let (marked, integers) = (has(marked, lane), has(integers, lane));
+                    heard.fallbacks.push(Fallback { row, column, marked, integers });
+                }
             }
             _ => {}
         }
