@@ -1,7 +1,7 @@
 //! What each packet of a frame cost, and which rays fell back: what a fast frame only adds up.
 //!
 //! In: a plan, a scene, a camera, and how many workers the frame has, which decides how high its tiles are. Out: a [`Tally`]. The frame is traced once
-//! more by the same kernels, packet by packet, on a machine that tells which lanes were settled how ([`crate::watch`]). Values and counts are those
+//! more by the same kernels, packet by packet, on a machine that tells which lanes were settled how (`watch`). Values and counts are those
 //! of every level, since results are; that the sum is the fast frame's own count is tested.
 
 use crate::watch::{Listener, Watch};

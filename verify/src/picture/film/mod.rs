@@ -1,7 +1,7 @@
 //! Frames of one size, one after another, into one file: APNG, GIF, or YUV4MPEG2 for other programs.
 //!
 //! In: a format, a size, how many frames of how many a second, and the frames. Out: bytes, as the frames come, so that no more than one
-//! frame is held. APNG keeps every bit of colour; GIF has 256 colours a frame; YUV4MPEG2 rounds ([`y4m`](self::y4m)). Refused are frames
+//! frame is held. APNG keeps every bit of colour; GIF has 256 colours a frame; YUV4MPEG2 rounds ([`y4m`]). Refused are frames
 //! of another size than the film's, more or fewer of them than were announced, and sizes that a format has no numbers for.
 
 mod apng;
