@@ -470,6 +470,7 @@ fn help_is_enough_for_a_stranger() {
         "report",
         "figures",
         "claims",
+        "view",
     ] {
         let help = desk.run(&[command, "--help"]);
         assert_eq!(help.code, 0, "{command}");

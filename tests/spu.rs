@@ -359,6 +359,8 @@ fn chores_by_hand() {
         (Chore::Push(3), [5, 57], 81),
         (Chore::Boxes, [88, 64], 151),
         (Chore::Packet, [0, 0], 0),
+        (Chore::Block([4, 8]), [0, 0], 0),
+        (Chore::Settled { marked: 6, only_t: 1, integers: 2 }, [0, 0], 0),
     ] {
         let (scalar, booked) = cycles(|| M.beside(chore, || M.splat(1.0)));
         eprintln!("{chore:?}: {booked:?}, usable from {}", scalar.ready()[0]);

@@ -6,7 +6,7 @@ use crate::clock::Clock;
 use crate::crew::Crew;
 use crate::event::{Events, RenderError};
 use crate::grid::Memory;
-use crate::machine::{Machine, Stage};
+use crate::machine::{Chore, Machine, Stage};
 use crate::plan::{Packet, Plan, Sharing};
 use crate::seen::{Counts, Seen, Worker};
 use crate::settle::ALL;
@@ -154,12 +154,8 @@ pub fn render<M: Machine + Send + Sync>(
         let rows_of_blocks = camera.size().height().div_ceil(BLOCK) as usize;
         *left = Left { background: scene.background(), columns: vec![NO_COLUMN; rows_of_blocks] };
     }
-    let side = match plan.packet {
-        Packet::Block => BLOCK,
-        Packet::Tile { side } => u32::from(side) * BLOCK,
-    };
     let width = camera.size().width() as usize;
-    let height = stripe_height(side, camera.size().height(), crew.size());
+    let [side, height] = tile_size(plan.packet, camera.size().height(), crew.size());
     let rows = width * height as usize;
     let layers = image.ids.chunks_mut(rows).zip(image.t.chunks_mut(rows)).zip(image.rgba.chunks_mut(rows));
     let layers = layers.zip(left.columns.chunks_mut((height / BLOCK) as usize));
@@ -203,8 +199,17 @@ pub fn render<M: Machine + Send + Sync>(
     Ok(())
 }
 
-/// Scanlines of a stripe: as many as a tile has, but for several workers so few that each may take eight stripes, lest one is left
-/// waiting for the other; whole patches of a tile if that can be.
+/// Pixels across a packet, and scanlines of a stripe: as many as a tile has, but for several workers so few that each may take eight
+/// stripes, lest one is left waiting for the other; whole patches of a tile if that can be.
+#[must_use]
+pub fn tile_size(packet: Packet, rows: u32, workers: usize) -> [u32; 2] {
+    let side = match packet {
+        Packet::Block => BLOCK,
+        Packet::Tile { side } => u32::from(side) * BLOCK,
+    };
+    [side, stripe_height(side, rows, workers)]
+}
+
 fn stripe_height(side: u32, rows: u32, workers: usize) -> u32 {
     const PATCH: u32 = tile::PATCH * BLOCK;
     if workers <= 1 || side <= PATCH {
@@ -252,6 +257,11 @@ pub fn block<M: Machine>(
     stripe: &mut Stripe<'_>,
     worker: &mut Worker,
 ) {
+    m.beside(
+        Chore::Block([x, y]),
+        #[inline(always)]
+        || (),
+    );
     m.stage(Stage::Frustum);
     let (xs, ys) = middles(m, camera, x, y);
     let block = lanes.block(m, xs, ys);

@@ -109,6 +109,18 @@ pub enum Chore {
     Owner,
     /// Sixteen colours are packed.
     Pixels,
+    /// What follows, until the next such note, are answers of the block whose first pixel is (x, y). It costs nothing.
+    Block([u32; 2]),
+    /// Lanes of the block that f32 or the short way to t left open are settled ([`crate::settle`]): bit i is lane i. It costs nothing, since
+    /// whoever counts has counted it already.
+    Settled {
+        /// Marked by f32, so that f64 was asked which sphere they hit.
+        marked: u32,
+        /// Of known spheres, so that f64 was asked for t by the longer way.
+        only_t: u32,
+        /// Of both, those for which integers were asked too, for the sphere or for the rounding of t.
+        integers: u32,
+    },
 }
 
 /// Sixteen lanes and what can be done with them.

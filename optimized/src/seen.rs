@@ -67,6 +67,14 @@ pub struct Worker {
     possible: Vec<u32>,
 }
 
+impl Counts {
+    /// Lanes for which integers were asked, for the sphere or for the rounding of t.
+    #[must_use]
+    pub fn by_integers(&self) -> u64 {
+        self.asked_integers + self.rounded_by_integers
+    }
+}
+
 impl std::ops::Add for Counts {
     type Output = Self;
 

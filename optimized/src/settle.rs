@@ -163,13 +163,18 @@ impl Question<'_> {
         let mut answers = Answers { t, owners };
         if unsettled | marked != 0 {
             let (mut t, mut id) = (m.to_array(answers.t), m.to_array_i(answers.owners.id));
-            self.finish(marked, unsettled, possible, &mut t, &mut id, counts);
+            let integers = self.finish(marked, unsettled, possible, &mut t, &mut id, counts);
+            m.beside(
+                Chore::Settled { marked, only_t: unsettled, integers },
+                #[inline(always)]
+                || (),
+            );
             answers = Answers::new(m, m.lanes(t), m.lanes_i(id), self.spheres);
         }
         answers
     }
 
-    /// Settles what is left, lane by lane.
+    /// Settles what is left, lane by lane; the lanes for which integers were asked.
     #[cold]
     fn finish(
         &self,
@@ -179,15 +184,19 @@ impl Question<'_> {
         t: &mut [f32; LANES],
         id: &mut [i32; LANES],
         counts: &mut Counts,
-    ) {
+    ) -> u32 {
+        let mut integers = 0;
         for lane in 0..LANES {
+            let before = counts.by_integers();
             if marked >> lane & 1 != 0 {
                 counts.asked_f64 += 1;
                 (t[lane], id[lane]) = self.by_f64(lane, possible, counts);
             } else if unsettled >> lane & 1 != 0 {
                 t[lane] = self.root_of(lane, id[lane].unsigned_abs(), counts);
             }
+            integers |= u32::from(counts.by_integers() != before) << lane;
         }
+        integers
     }
 
     /// The t of a sphere that is certainly hit.

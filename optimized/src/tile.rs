@@ -72,7 +72,7 @@ use crate::double::short_error;
 use crate::frame::Known;
 use crate::frustum::{Frustum, Heading, Slices, beyond};
 use crate::grid::Grid;
-use crate::machine::{LANES, Machine, Site, three};
+use crate::machine::{Chore, LANES, Machine, Site, three};
 use crate::plan::{Culling, Plan};
 use crate::seen::Counts;
 use crate::settle::{ALL, Owner, Question};
@@ -525,6 +525,11 @@ impl<M: Machine> Work<M> {
         let m = look.m;
         let (candidates, spheres) = (&self.candidates, look.scene.spheres());
         for block in &self.finished {
+            m.beside(
+                Chore::Block(block.corner),
+                #[inline(always)]
+                || (),
+            );
             if block.marked != 0 {
                 candidates.overlapping(m, self.blocks.get(m, block.at), &mut self.possible);
             }

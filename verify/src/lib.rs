@@ -8,7 +8,7 @@
 //! so [`small`] or so [`few`] of bits that all inputs can be tried, [`cells`] on all f32, [`fuzzed`] on any bytes, [`prove`] by solvers
 //! for all inputs; a [`verdict`] is what they say. [`run`] does it all for one frame, a [`case`] is a failure that anyone can run again, a [`campaign`] as many scenes as many machines have time for, [`bench`](mod@bench) says how
 //! fast, [`spu`] how fast on the paper's processor. [`methods`] are all ways to answer rays: [`chart`] has their speed against their error, [`stability`] where each
-//! breaks, [`ablation`] what each choice of a plan buys, [`advice`] which to take. [`claims`], [`paper`] with what the paper claims, [`figures`], [`picture`] and [`report`] show it.
+//! breaks, [`ablation`] what each choice of a plan buys, [`advice`] which to take. [`claims`], [`paper`] with what the paper claims, [`figures`], [`picture`] and [`report`] show it, and [`view`] while it plays.
 
 pub mod directed;
 pub mod few;
@@ -65,3 +65,5 @@ pub mod paper;
 pub mod picture;
 pub(crate) mod plot;
 pub mod report;
+
+pub mod view;

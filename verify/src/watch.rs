@@ -1,5 +1,5 @@
-//! A machine that computes as another one does and notes what is visited, met and compared: how accounts and figures see into
-//! the tracer without a second one being written.
+//! A machine that computes as another one does and tells a [`Listener`] what is visited, met and compared: how accounts, figures and the
+//! viewer's overlays see into the tracer without a second one being written.
 //!
 //! In: what a frame prepared, and the directions of a block. Out: the notes in the order in which things happened, what the packet
 //! counted itself, and its answers ([`watched`]).
@@ -34,11 +34,52 @@ pub(crate) enum Note {
     Any(Site, u32),
 }
 
-/// Computes as `values` does and notes.
+/// Who is told what a watched machine does; what does not matter to it, it leaves out.
+pub(crate) trait Listener: Copy {
+    /// A part of the work begins.
+    fn stage(self, _: Stage) {}
+    /// Plain numbers do something beside the lanes.
+    fn chore(self, _: Chore) {}
+    /// x < y was asked, or if not `strict` x <= y.
+    fn compared(self, _strict: bool, _x: [f32; LANES], _y: [f32; LANES]) {}
+    /// Whether any lane says yes was asked; the lanes that do.
+    fn any(self, _: Site, _lanes: u32) {}
+}
+
+/// Computes as `values` does and tells of it.
 #[derive(Clone, Copy)]
-struct Watch<'a, V> {
-    values: V,
-    notes: &'a RefCell<Vec<Note>>,
+pub(crate) struct Watch<V, L> {
+    pub(crate) values: V,
+    pub(crate) listener: L,
+}
+
+/// Notes all.
+type Notes<'a> = &'a RefCell<Vec<Note>>;
+
+impl Listener for Notes<'_> {
+    fn stage(self, stage: Stage) {
+        self.borrow_mut().push(Note::Part(match stage {
+            Stage::Cull => Part::Cull,
+            Stage::Intersect => Part::Intersect,
+            Stage::Voxelize | Stage::Frustum | Stage::Walk | Stage::Shade => Part::Other,
+        }));
+    }
+
+    fn chore(self, chore: Chore) {
+        match chore {
+            Chore::Sphere(id) => self.borrow_mut().push(Note::Sphere(id)),
+            Chore::Cell { slice, j, k, live } => self.borrow_mut().push(Note::Cell { slice, j, k, live }),
+            _ => {}
+        }
+    }
+
+    fn compared(self, strict: bool, x: [f32; LANES], y: [f32; LANES]) {
+        self.borrow_mut().push(Note::Compared { strict, x, y });
+    }
+
+    fn any(self, site: Site, lanes: u32) {
+        self.borrow_mut().push(Note::Any(site, lanes));
+    }
 }
 
 /// A block that was traced under watch.
@@ -56,17 +97,11 @@ pub(crate) struct Watched {
 /// Traces the block of those directions, by axis and lane, on the scalar machine.
 pub(crate) fn watched(seen: &Seen, scene: &Scene, dir: [[f32; LANES]; 3]) -> Watched {
     let notes = RefCell::new(Vec::new());
-    let m = Watch { values: Scalar, notes: &notes };
+    let m = Watch { values: Scalar, listener: &notes };
     let mut worker = Worker::default();
     let answers = seen.trace(m, scene.spheres(), &Block::new(m, dir), None, &mut worker);
     let (t, ids) = (m.to_array(answers.t), m.to_array_i(answers.owners.id));
     Watched { notes: notes.into_inner(), counts: worker.counts, t, ids }
-}
-
-impl<V> Watch<'_, V> {
-    fn note(&self, note: Note) {
-        self.notes.borrow_mut().push(note);
-    }
 }
 
 macro_rules! same {
@@ -77,14 +112,14 @@ macro_rules! same {
     };
 }
 
-impl<'a, V: Machine> Machine for Watch<'a, V> {
+impl<V: Machine, L: Listener> Machine for Watch<V, L> {
     type F = V::F;
     type I = V::I;
     type B = V::B;
-    type Spu = Watch<'a, V::Spu>;
+    type Spu = Watch<V::Spu, L>;
 
     fn spu(self) -> Self::Spu {
-        Watch { values: self.values.spu(), notes: self.notes }
+        Watch { values: self.values.spu(), listener: self.listener }
     }
     fn unit(self) -> f32 {
         self.values.unit()
@@ -93,18 +128,10 @@ impl<'a, V: Machine> Machine for Watch<'a, V> {
         self.values.within(work)
     }
     fn stage(self, stage: Stage) {
-        self.note(Note::Part(match stage {
-            Stage::Cull => Part::Cull,
-            Stage::Intersect => Part::Intersect,
-            Stage::Voxelize | Stage::Frustum | Stage::Walk | Stage::Shade => Part::Other,
-        }));
+        self.listener.stage(stage);
     }
     fn beside<R>(self, chore: Chore, work: impl FnOnce() -> R) -> R {
-        match chore {
-            Chore::Sphere(id) => self.note(Note::Sphere(id)),
-            Chore::Cell { slice, j, k, live } => self.note(Note::Cell { slice, j, k, live }),
-            _ => {}
-        }
+        self.listener.chore(chore);
         work()
     }
 
@@ -130,15 +157,15 @@ impl<'a, V: Machine> Machine for Watch<'a, V> {
         self.values.splat_i(x)
     }
     fn lt(self, x: Self::F, y: Self::F) -> Self::B {
-        self.note(Note::Compared { strict: true, x: self.to_array(x), y: self.to_array(y) });
+        self.listener.compared(true, self.to_array(x), self.to_array(y));
         self.values.lt(x, y)
     }
     fn le(self, x: Self::F, y: Self::F) -> Self::B {
-        self.note(Note::Compared { strict: false, x: self.to_array(x), y: self.to_array(y) });
+        self.listener.compared(false, self.to_array(x), self.to_array(y));
         self.values.le(x, y)
     }
     fn any(self, x: Self::B, site: Site) -> bool {
-        self.note(Note::Any(site, self.to_bits(x)));
+        self.listener.any(site, self.to_bits(x));
         self.values.any(x, site)
     }
     same! {

@@ -82,7 +82,7 @@ pub fn bold_difference(truth: &Image, subject: &Image) -> Result<RgbaImage, Pict
 }
 
 /// Grey of about the same lightness, in the range 24 to 88 of 255, so that every fault outshines it.
-fn dimmed([r, g, b, _]: [u8; 4]) -> [u8; 3] {
+pub(crate) fn dimmed([r, g, b, _]: [u8; 4]) -> [u8; 3] {
     let luma = (u32::from(r) * 54 + u32::from(g) * 183 + u32::from(b) * 19) >> 8;
     [u8::try_from(24 + luma / 4).unwrap_or(u8::MAX); 3]
 }

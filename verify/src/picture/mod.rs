@@ -1,20 +1,22 @@
-//! Pictures for people and for other programs: PNG, `OpenEXR`, and the triptych that shows where two images differ.
+//! Pictures for people and for other programs: PNG, `OpenEXR`, films of many, and the triptych that shows where two images differ.
 //! A [`contract::Image`] comes in, bytes or an [`RgbaImage`] go out; nothing here decides who is right.
 //! Refused are images whose layers are not as long as their size says, and pairs of different sizes.
 
 mod difference;
 mod exr;
+pub mod film;
 mod png;
 mod triptych;
 mod write;
 
+pub(crate) use self::difference::dimmed;
 pub use self::difference::{
     PALETTE, RARE, bold_difference, difference, fault_color, first_wrong, square_side,
 };
 pub use self::exr::exr;
 pub use self::png::{canvas, png};
 pub use self::triptych::{GAP, MARK, join, panels, ring_radius, triptych, zoom};
-pub use self::write::{WriteError, check_folder, write_atomically};
+pub use self::write::{AtomicFile, WriteError, check_folder, write_atomically};
 pub use image::RgbaImage;
 
 use contract::Image;

@@ -61,19 +61,80 @@ pub enum WriteError {
 /// # Errors
 /// [`WriteError`], which names the path and the step that failed.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
-    let at = || path.to_path_buf();
-    if path.file_name().is_none() {
-        return Err(WriteError::NoName { path: at() });
+    let mut file = AtomicFile::new(path)?;
+    // What fails here is told at the end.
+    _ = file.write_all(bytes);
+    file.finish()
+}
+
+/// A file that is written piece by piece and takes its name when it is finished; given up before, it leaves nothing.
+#[derive(Debug)]
+pub struct AtomicFile {
+    path: PathBuf,
+    file: NamedTempFile,
+    bytes: usize,
+    /// The first failure, which [`AtomicFile::finish`] tells: an encoder between may have dressed it up.
+    failed: Option<std::io::Error>,
+}
+
+impl AtomicFile {
+    /// Begins one.
+    ///
+    /// # Errors
+    /// [`WriteError::NoName`] and [`WriteError::Folder`].
+    pub fn new(path: &Path) -> Result<Self, WriteError> {
+        let at = || path.to_path_buf();
+        if path.file_name().is_none() {
+            return Err(WriteError::NoName { path: at() });
+        }
+        // The parent of a bare name is the empty path, which means the current folder but cannot be opened.
+        let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let file =
+            temporary(folder).map_err(|cause| WriteError::Folder { path: at(), cause: bare(cause) })?;
+        Ok(Self { path: at(), file, bytes: 0, failed: None })
     }
-    // The parent of a bare name is the empty path, which means the current folder but cannot be opened.
-    let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file =
-        temporary(folder).map_err(|cause| WriteError::Folder { path: at(), cause: bare(cause) })?;
-    // Some file systems tell of a full disk only when the bytes must reach it.
-    let written = file.write_all(bytes).and_then(|()| file.as_file().sync_all());
-    written.map_err(|cause| WriteError::Bytes { path: at(), bytes: bytes.len(), cause })?;
-    file.persist(path).map_err(|failed| WriteError::Place { path: at(), cause: failed.error })?;
-    Ok(())
+
+    /// Whether a write has failed, which [`AtomicFile::finish`] tells with the file's name.
+    #[must_use]
+    pub fn has_failed(&self) -> bool {
+        self.failed.is_some()
+    }
+
+    /// Gives it its name, in place of a file that may be there.
+    ///
+    /// # Errors
+    /// [`WriteError::Bytes`] if any write failed or the bytes do not reach the disk, [`WriteError::Place`].
+    pub fn finish(self) -> Result<(), WriteError> {
+        let Self { path, file, bytes, failed } = self;
+        // Some file systems tell of a full disk only when the bytes must reach it.
+        let written = failed.map_or_else(|| file.as_file().sync_all(), Err);
+        match written {
+            Err(cause) => Err(WriteError::Bytes { path, bytes, cause }),
+            Ok(()) => match file.persist(&path) {
+                Ok(_) => Ok(()),
+                Err(failed) => Err(WriteError::Place { path, cause: failed.error }),
+            },
+        }
+    }
+}
+
+impl Write for AtomicFile {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.write_all(bytes).map(|()| bytes.len())
+    }
+
+    fn write_all(&mut self, bytes: &[u8]) -> std::io::Result<()> {
+        self.bytes += bytes.len();
+        self.file.write_all(bytes).map_err(|error| {
+            let told = std::io::Error::new(error.kind(), error.to_string());
+            self.failed.get_or_insert(error);
+            told
+        })
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        self.file.flush()
+    }
 }
 
 /// Whether files could be made in that folder or, where it is missing, in the nearest one above it. To be asked

@@ -273,7 +273,7 @@ pub fn of_chore(chore: Chore) -> [(Sequence, usize); 4] {
             [(ADDRESSES, 1), (READ_QUEUE, cells), (PUSH_QUEUE, cells), (WRITE_QUEUE, cells)]
         }
         Chore::Entry => one(ENTRY, 1),
-        Chore::Packet => one(&[], 0),
+        Chore::Packet | Chore::Block(_) | Chore::Settled { .. } => one(&[], 0),
         Chore::Distances(slices) => one(DISTANCES, slices.div_ceil(4)),
         Chore::Rectangle => one(RECTANGLE, 1),
         Chore::Cell { .. } => one(CELL, 1),

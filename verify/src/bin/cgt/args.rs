@@ -10,6 +10,7 @@ use std::time::Duration;
 use verify::campaign::shard::Which;
 use verify::foreign::{Foreign, ForeignError, PROMISES};
 use verify::scenes::frame::Framing;
+use verify::view::command::Overlay;
 
 /// Judge tracers of sphere scenes against exact arithmetic.
 ///
@@ -40,6 +41,8 @@ Examples:
   cgt verify uniform:5000:1 own.pdb     a generated scene and a file
   cgt verify --subject-cmd ./mytracer   a tracer of your own, in any language
   cgt render sphereflake:4 flake.png --size 800x600
+  cgt render 2juy film.apng --frames 0..24
+  cgt view 2juy                         a window; H lists its keys
   cgt report                            all of it on one page, in some minutes
   cgt bench 1hvr --peers embree --threads 1
   cgt chart 1hvr                        speed against error, every method
@@ -67,8 +70,10 @@ pub(crate) enum Command {
     /// Change one choice of a plan at a time: what does each buy, in time, in cycles, in right pixels?
     Ablate(Ablate),
     #[allow(clippy::doc_markdown, reason = "shown to people as it stands")]
-    /// Render one scene to a PNG or OpenEXR file
+    /// Render one scene to a PNG or OpenEXR file, or an animation to a film or numbered files
     Render(Render),
+    /// Look at a scene in a window or a terminal: orbit, plans, what the tracer does laid over the picture
+    View(Viewer),
     /// Count the cycles of the PlayStation 3's processor: by stage, with mispredicts, memory and what each trick saves
     Spu(Spu),
     /// Hold each of the paper's claims against what is found: verdict, evidence, figures, counterexample
@@ -527,14 +532,81 @@ pub(crate) struct Render {
     /// Scene: a name or generator (see `cgt scenes`), or a file
     #[arg(value_name = "SCENE")]
     pub(crate) scene: String,
-    /// The file to write: .png, or .exr for colour, id and t as layers
+    /// The file to write: .png, or .exr for colour, id and t as layers; of several frames see --frames
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
     /// What decides the picture
     #[arg(long, value_enum, default_value_t = Method::Exact)]
     pub(crate) method: Method,
+    #[allow(clippy::doc_markdown, reason = "shown to people as it stands")]
+    /// Frames of an animation, from and to, counted from 0, the last one not among them. FILE is then .apng or .png for an animated PNG, bit for
+    /// bit; .gif, rounded to 256 colours in each frame; .y4m, or - for standard output, YUV4MPEG2 in 4:4:4, BT.601, rounded to 8 bits;
+    /// or a .png or .exr with {frame} or %04d in its name for a file each
+    #[arg(long, value_name = "A..B", value_parser = range, conflicts_with = "frame")]
+    pub(crate) frames: Option<Range<usize>>,
+    /// Frames a second of a film; GIFs have delays in hundredths of a second, so beyond 50 viewers slow down
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = value_parser!(u16).range(1..=1000), requires = "frames")]
+    pub(crate) fps: u16,
     #[command(flatten)]
     pub(crate) view: View,
+}
+
+#[derive(Args, Debug)]
+#[command(after_help = keys())]
+pub(crate) struct Viewer {
+    /// Scene: a name or generator (see `cgt scenes`), or a file; `trajectory.dcd,atoms.pdb` for two
+    #[arg(value_name = "SCENE", default_value = "2juy")]
+    pub(crate) scene: String,
+    /// Plan to begin with
+    #[arg(long, value_name = "NAME", value_parser = PLANS, default_value = "fast")]
+    pub(crate) plan: String,
+    /// SIMD level to begin with [default: the best, or the one that CGT_LEVEL names]
+    #[arg(long, value_name = "LEVEL")]
+    pub(crate) level: Option<String>,
+    /// Frames of the animation that are played in a second
+    #[arg(long, value_name = "N", default_value_t = 30.0, value_parser = rate)]
+    pub(crate) fps: f64,
+    /// Overlays to begin with, with commas between: blocks, cells, culling, lanes, wrong, times, help
+    #[arg(long, value_name = "NAME", value_delimiter = ',', value_parser = overlay)]
+    pub(crate) overlay: Vec<Overlay>,
+    /// Begin with the paper's plan left of a line and the exact one right of it
+    #[arg(long)]
+    pub(crate) wipe: bool,
+    /// Begin standing still
+    #[arg(long)]
+    pub(crate) paused: bool,
+    /// Show it in the terminal: by kitty's, iTerm's or sixel graphics where the terminal has them, else in half blocks; `=blocks` for these in any case
+    #[arg(long, value_name = "WAY", num_args = 0..=1, require_equals = true, default_missing_value = "best", value_parser = ["best", "blocks"])]
+    pub(crate) terminal: Option<String>,
+    /// Show it nowhere, only measure it
+    #[arg(long, requires = "limit", conflicts_with = "terminal")]
+    pub(crate) no_window: bool,
+    /// Play each frame once, as fast as can be, for so long; then print frames a second and where the time went
+    #[arg(long, value_name = "N", value_parser = seconds, group = "limit")]
+    pub(crate) seconds: Option<f64>,
+    /// The same for so many frames, again from the first after the last
+    #[arg(long, value_name = "N", value_parser = value_parser!(u64).range(1..), group = "limit")]
+    pub(crate) frames: Option<u64>,
+    #[command(flatten)]
+    pub(crate) view: View,
+}
+
+/// The keys of a view, as its help shows them.
+fn keys() -> String {
+    let lines: String = verify::view::command::help().iter().map(|line| format!("\n  {line}")).collect();
+    format!("Keys, in the window and in the terminal:{lines}")
+}
+
+fn overlay(text: &str) -> Result<Overlay, String> {
+    let found = Overlay::ALL.into_iter().find(|(_, name)| *name == text);
+    found
+        .map(|(overlay, _)| overlay)
+        .ok_or_else(|| format!("expected one of {}", Overlay::ALL.map(|(_, name)| name).join(", ")))
+}
+
+fn rate(text: &str) -> Result<f64, String> {
+    let rate = text.parse::<f64>().map_err(|e| e.to_string())?;
+    if (0.01..=1000.0).contains(&rate) { Ok(rate) } else { Err("expected 0.01 to 1000".into()) }
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Some(Command::Verify(args)) => cmd::verify::verify(&args),
         Some(Command::Report(args)) => cmd::report::run(&args),
         Some(Command::Render(args)) => cmd::render::render(&args),
+        Some(Command::View(args)) => cmd::view::run(&args),
         Some(Command::Bench(args)) => cmd::bench::run(&args),
         Some(Command::Chart(args)) => cmd::chart::run(&args),
         Some(Command::Stability(args)) => cmd::stability::run(&args),

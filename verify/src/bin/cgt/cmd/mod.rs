@@ -16,6 +16,7 @@ pub(crate) mod scenes;
 pub(crate) mod spu;
 pub(crate) mod stability;
 pub(crate) mod verify;
+pub(crate) mod view;
 
 use crate::Failure;
 use std::collections::HashSet;
