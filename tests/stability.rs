@@ -100,10 +100,11 @@ fn rounding_breaks_where_it_is_known_to() {
     let found = all();
     let at = |method, radii| rate(found, "distance", method, radii);
     assert!((1e-3..0.1).contains(&at("naive-f32-textbook", 1000.0)), "{}", at("naive-f32-textbook", 1000.0));
-    assert!(
-        at("naive-f32-textbook", 1e4) > 0.2
-            && at("safe-spu-textbook", 1000.0) > at("naive-f32-textbook", 1000.0)
-    );
+    assert!(at("naive-f32-textbook", 1e4) > 0.2);
+    // By a third, where it begins; at 1,000 radii by too little for so few rays.
+    let early = |method| [177.8279, 316.2278, 562.3413].map(|radii| at(method, radii)).iter().sum::<f64>();
+    let (spu, textbook) = (early("safe-spu-textbook"), early("naive-f32-textbook"));
+    assert!(spu > textbook, "SPU {spu}, f32 {textbook}, CGT_SEED={:?}", found.environment.seed);
     assert!(at("naive-f32-perpendicular", 1e4) < 1e-3 && at("naive-f32-perpendicular", 1e6) > 1e-3);
     assert!(at("naive-f64", 1e5) < 1e-3 && at("naive-f64", 1e8) > 1e-3, "f64 has its end too");
     let breakdown =
