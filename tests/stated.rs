@@ -739,7 +739,7 @@ fn slices_are_padded_for_the_farthest() {
     let u = NEAREST as f32;
     for axis in 0..3 {
         // The pad is 16u of 16: rays nearer than that to the next cell come there, others do not.
-        for (below, more) in [(1.0, 1), (4096.0, 0)] {
+        for (below, more) in [(1.0, 1), (8.0, 1), (4096.0, 0)] {
             let slope = [[1.0 - below * u; LANES]; 2];
             let frustum = Frustum { heading: Heading::new(axis, true), slopes: [slope; 2] };
             for (margins, more) in [(Margins::Derived, more), (Margins::None, 0)] {
