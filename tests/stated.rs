@@ -320,9 +320,11 @@ fn errors_of_roots_are_those_derived() {
     for case in 0..40_000 {
         let mut whole = |most: i32| [0; 3].map(|_| rng.random_range(-most..=most));
         let dir = whole(100);
-        // Every fourth ball lies ahead, or behind, in the very line of the ray, and up to 2⁴⁸ radii away.
+        // Every fourth ball lies ahead, or behind, in the very line of the ray, and up to 2⁴⁸ radii away; some are level with the eye.
         let (eye, f, far) = if case % 4 == 0 {
             ([0; 3], dir, rng.random_range(0..=40))
+        } else if case % 16 == 13 {
+            (whole(1000), [-5 * dir[1], 5 * dir[0], 0], 0)
         } else {
             (whole(1000), whole(1000), 0)
         };
