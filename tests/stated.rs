@@ -756,6 +756,27 @@ fn slices_are_padded_for_the_farthest() {
     }
 }
 
+/// The widening of a grid by centres counts for the pad as the farthest slice does.
+#[test]
+fn slices_are_padded_for_the_widening() {
+    let ball = |at: f32| Bounds { lo: [at - 4.0; 3], hi: [at + 4.0; 3], center: [at; 3], radius: 4.0 };
+    let plan = Plan { voxelizer: Voxelizer::ByCenter, resolution: Resolution::Fixed(16), ..Plan::safe() };
+    let grid = Grid::build(Scalar, &plan, &[ball(0.0), ball(16.0)], &mut Events::default());
+    let grid = grid.expect("nothing to refuse");
+    let u = NEAREST as f32;
+    // Slice s ends at s + 1 and is widened by 4 + 64u; what is seen there ends 4 + 64u and the pad, 16u of 20, beyond the slope's end: at
+    // s + 9 and 448u more, but for what the slope is below 1.
+    for (below, more) in [(384.0, 1), (512.0, 0)] {
+        for s in 0..=6u8 {
+            let slope = [[1.0 - below / f32::from(s + 5) * u; LANES]; 2];
+            let frustum = Frustum { heading: Heading::new(0, true), slopes: [slope; 2] };
+            let slices = frustum.slices(Scalar, [0.0; 3], &grid, Margins::Derived);
+            let last = [0, 1].map(|side| slices.last[side][usize::from(s)]);
+            assert_eq!(last, [i32::from(s) + 8 + more; 2], "slice {s}, {below}u below s + 9");
+        }
+    }
+}
+
 /// The range of slopes between directions is that of their slopes, and beyond it (4 s/A + 16u) (1 + |slope|), within −1 to 1; all of it where
 /// A is not above 1024 s.
 #[test]
