@@ -308,6 +308,13 @@ fn spheres_have_their_bound_and_side() {
             assert_eq!(seen.bounds[0].1, side, "{ball:?} from {eye:?}");
         }
     }
+    // Of two squares of 2⁴⁶ the slack is an eighth.
+    let radius = 8_388_609.0;
+    for (off, side) in [(0.25, Side::Unknown), (0.75, Side::Outside)] {
+        let ball = Sphere { center: [radius, off, 0.0], radius, color: [1; 3] };
+        let seen = Seen::without_grid(Scalar, plan, &[ball], [0.0; 3]);
+        assert_eq!(seen.bounds[0].1, side, "{ball:?}");
+    }
 }
 
 /// The error of t that f64 says is the one derived, on whole numbers for which its steps but for roots and quotients are exact, and is the same
