@@ -5,12 +5,12 @@
 
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use optimized::frustum::Slices;
-use optimized::grid::MAX_CELLS;
+use optimized::grid::{Bounds, Grid, MAX_CELLS};
 use optimized::host::Scalar;
 use optimized::machine::{Chore, LANES, Machine, Site, Stage};
 use optimized::plan::{Culling, Loop, Resolution, Voxelizer};
 use optimized::walk::{Cursor, Rectangle, Visitor, step, walk};
-use optimized::{Level, Plan, Tracer};
+use optimized::{Events, Level, Plan, Tracer};
 use rand::{Rng, RngExt};
 use std::collections::BTreeSet;
 use verify::scenes::catalogue::Source;
@@ -370,6 +370,22 @@ fn chores_by_hand() {
             "{chore:?}: instructions on the even and the odd pipe"
         );
         assert_eq!(scalar.ready()[0], ready, "{chore:?}: usable");
+    }
+}
+
+/// Queues are emptied before they are filled, two quadwords a cell: what a grid of more cells costs more is that.
+#[test]
+fn queues_are_emptied_by_quadwords() {
+    let ball = Bounds { lo: [1.0; 3], hi: [2.0; 3], center: [1.5; 3], radius: 0.5 };
+    let odd = |cells: u8| {
+        let plan = Plan { resolution: Resolution::Fixed(cells), ..Plan::paper() };
+        let (grid, booked) = cycles(|| Grid::build(M, &plan, &[ball], &mut Events::default()));
+        assert!(grid.expect("the paper's plan goes on").has_queues());
+        booked.odd
+    };
+    for [few, many] in [[4u8, 8], [8, 12]] {
+        let more = 2 * (u64::from(many).pow(3) - u64::from(few).pow(3));
+        assert_eq!(odd(many) - odd(few), more, "{few} and {many} cells on an axis");
     }
 }
 

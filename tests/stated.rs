@@ -3,7 +3,9 @@
 
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use optimized::bound::{NEAREST, Rule, TRUNCATING};
+use optimized::certain::Side;
 use optimized::crew::Crew;
+use optimized::frustum::{Frustum, Heading};
 use optimized::grid::{Bounds, Grid, Memory, widen};
 use optimized::host::Scalar;
 use optimized::machine::LANES;
@@ -11,8 +13,8 @@ use optimized::margin::{in_range, reach, sphere_in_range};
 use optimized::plan::{
     Arithmetic, Cells, Culling, Loop, Margins, OnEvent, Packet, Plan, Resolution, Sharing, Voxelizer,
 };
-use optimized::seen::Counts;
-use optimized::{Events, Form, Known, Level, Tracer, cull, double, frustum, tile};
+use optimized::seen::{Counts, Seen};
+use optimized::{Events, Form, Known, Level, RenderError, Tracer, cull, double, frustum, tile};
 use rand::{Rng, RngExt};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -270,6 +272,226 @@ fn root(u: f64, r: f64, m: f64) -> f64 {
     (foot + half + ends) * (1.0 + u) / (1.0 - u)
 }
 
+/// Of each sphere the certified stage has the bound of its distance from the eye, wherever the two are, and the eye's side at every scale: on the
+/// surface neither, and one step of the radius away from it the one it is on.
+#[test]
+fn spheres_have_their_bound_and_side() {
+    let seed = seed();
+    let mut rng = generator(seed, 11);
+    let plan = Plan { arithmetic: Arithmetic::Certified, ..Plan::safe() };
+    let slack = 1.2 / 1024.0 / NEAREST;
+    for case in 0..2_000 {
+        let (eye, center) = (vector(&mut rng, 8.0), vector(&mut rng, 8.0));
+        let radius = power(&mut rng, -6.0, 6.0) as f32;
+        let seen = Seen::without_grid(Scalar, plan, &[Sphere { center, radius, color: [1; 3] }], eye);
+        let (given, _) = seen.bounds[0];
+        let m = (0..3).map(|i| (f64::from(eye[i]) - f64::from(center[i])).abs()).fold(0.0, f64::max);
+        let what =
+            || format!("case {case} of CGT_SEED={seed}: eye {eye:?}, {center:?}, {radius:e}, {given:?}");
+        let [hit_above, miss_below] = thresholds(NEAREST, f64::from(radius), m);
+        assert_stated(hit_above, given.hit_above, slack, &what);
+        assert_stated(miss_below, -given.miss_below, slack, &what);
+        assert_stated(root(NEAREST, f64::from(radius), m), given.root, slack, &what);
+    }
+    for exponent in -28..=28 {
+        let scale = 2f32.powi(exponent);
+        let (eye, center) = ([scale; 3], [4.0 * scale, 5.0 * scale, scale]);
+        for (radius, side) in [
+            (4.0, Side::Outside),
+            (5f32.next_down(), Side::Outside),
+            (5.0, Side::Unknown),
+            (5f32.next_up(), Side::Inside),
+            (6.0, Side::Inside),
+        ] {
+            let ball = Sphere { center, radius: radius * scale, color: [1; 3] };
+            let seen = Seen::without_grid(Scalar, plan, &[ball], eye);
+            assert_eq!(seen.bounds[0].1, side, "{ball:?} from {eye:?}");
+        }
+    }
+    // Of two squares of 2⁴⁶ the slack is an eighth.
+    let radius = 8_388_609.0;
+    for (off, side) in [(0.25, Side::Unknown), (0.75, Side::Outside)] {
+        let ball = Sphere { center: [radius, off, 0.0], radius, color: [1; 3] };
+        let seen = Seen::without_grid(Scalar, plan, &[ball], [0.0; 3]);
+        assert_eq!(seen.bounds[0].1, side, "{ball:?}");
+    }
+}
+
+/// The error of t that f64 says is the one derived, on whole numbers for which its steps but for roots and quotients are exact, and is the same
+/// at every scale: a bound that is not of its quantity's dimension is too small at one end and decides nothing at the other.
+#[test]
+fn errors_of_roots_are_those_derived() {
+    let seed = seed();
+    let mut rng = generator(seed, 12);
+    let mut judged = [0u64; 5];
+    for case in 0..40_000 {
+        let mut whole = |most: i32| [0; 3].map(|_| rng.random_range(-most..=most));
+        let dir = whole(100);
+        // Every fourth ball lies ahead, or behind, in the very line of the ray, and up to 2⁴⁸ radii away; some are level with the eye.
+        let (eye, f, far) = if case % 4 == 0 {
+            ([0; 3], dir, rng.random_range(0..=40))
+        } else if case % 16 == 13 {
+            (whole(1000), [-5 * dir[1], 5 * dir[0], 0], 0)
+        } else {
+            (whole(1000), whole(1000), 0)
+        };
+        let [f, d] = [f.map(|x| f64::from(x) * 2f64.powi(far)), dir.map(f64::from)];
+        if dot(d, d) == 0.0 {
+            continue;
+        }
+        let w = [f[1] * d[2] - f[2] * d[1], f[2] * d[0] - f[0] * d[2], f[0] * d[1] - f[1] * d[0]];
+        // Some in their middle, some at their rim, and some around the eye.
+        let rim = (dot(w, w) / dot(d, d)).sqrt().ceil();
+        let r = [rim + 1.0, rim.max(1.0), rim + f64::from(rng.random_range(1..50)), length(f).ceil() + 1.0];
+        let r = if far > 0 { f64::from(rng.random_range(1..100)) } else { r[case / 4 % 4] };
+        let sign = if case % 8 < 4 { 1.0 } else { -1.0 };
+        let stated = Stated::of(f.map(|x| sign * x), d, r);
+        for [near, along] in [[0, 0], [-60, 0], [40, 0], [0, -50], [0, 60], [-30, 30]] {
+            let [near, along] = [near, along].map(|exponent| 2f64.powi(exponent));
+            let scaled = |v: [f64; 3], scale: f64| v.map(|x| (x * scale) as f32);
+            let eye = eye.map(f64::from);
+            let center = [0, 1, 2].map(|i| eye[i] - sign * f[i]);
+            let given = double::root::<f64>(
+                scaled(eye, near),
+                scaled(d, along),
+                scaled(center, near),
+                (r * near) as f32,
+            );
+            let what = || {
+                format!(
+                    "case {case} of CGT_SEED={seed}, scales {near:e} and {along:e}: f {f:?}, d {d:?}, r {r}: \
+                     {given:?}, {stated:?}"
+                )
+            };
+            assert_eq!((given.miss, given.hit), (stated.miss, stated.hit), "{}", what());
+            judged[0] += u64::from(given.miss);
+            if given.hit {
+                let t = given.t * along / near;
+                assert!((t / stated.t - 1.0).abs() < 1e-12, "t; {}", what());
+                assert!((given.error / stated.error - 1.0).abs() < 1e-9, "error; {}", what());
+                judged[1 + usize::from(stated.inside)] += 1;
+                judged[3] += u64::from(stated.at_rim);
+                judged[4] += u64::from(far > 30);
+            }
+        }
+    }
+    eprintln!("CGT_SEED={seed}: misses, hits from outside, from inside, at the rim, from afar: {judged:?}");
+    assert!(judged.iter().all(|n| *n > 2_000), "too few: {judged:?}");
+}
+
+/// What the derivation of [`double`] says of a ray and a ball.
+#[derive(Debug)]
+struct Stated {
+    miss: bool,
+    hit: bool,
+    t: f64,
+    error: f64,
+    inside: bool,
+    /// Most of the error is the discriminant's.
+    at_rim: bool,
+}
+
+impl Stated {
+    /// f is eye − centre.
+    fn of(f: [f64; 3], d: [f64; 3], r: f64) -> Self {
+        let (v, more) = (2f64.powi(-53), 1.01);
+        let w = [f[1] * d[2] - f[2] * d[1], f[2] * d[0] - f[0] * d[2], f[0] * d[1] - f[1] * d[0]];
+        let (ff, a, b, ww) = (dot(f, f), dot(d, d), dot(f, d), dot(w, w));
+        let (of_d, q) = (a * r * r - ww, ff - r * r);
+        // |D̂ − D| by steps 4 to 6, |b̂ − b| by 8, |q̂ − q| by 7.
+        let slack = more * v * (7.0 * (a * ff * ww).sqrt() + 5.0 * (a * r * r + ww)) + 14.0 * v * v * a * ff;
+        let b_slack = 4.0 * more * v * (a * ff).sqrt();
+        let q_slack = more * v * (6.0 * ff + r * r);
+        let (outside, inside) = (q > q_slack, q < -q_slack);
+        let miss = of_d < -slack || (outside && b > b_slack);
+        let s = of_d.max(0.0).sqrt();
+        let sum = b.abs() + s;
+        // Seen from inside and coming nearer to the centre: the far root as a sum.
+        let (t, own) =
+            if inside && b < 0.0 { (sum / a, 3.0 * v) } else { (q.abs() / sum, q_slack / q.abs()) };
+        let of_discriminant = slack / s / sum;
+        let error = more * (own + 2.0 * b_slack / sum + of_discriminant + v * s / sum + 4.0 * v);
+        let hit = of_d > 2.0 * slack && (inside || (outside && b < -b_slack)) && error < 0.5;
+        Self { miss, hit, t, error, inside, at_rim: of_discriminant > error / 2.0 }
+    }
+}
+
+/// The short way's error is v g (16 + 1280 |f|₁/r) and 2 % at most, with 1 % for its roundings; it is gone by rays that come from outside and
+/// not at the rim, at every scale, and whoever may not go it has two ends that differ.
+#[test]
+fn the_short_way_is_gone_where_it_says() {
+    let seed = seed();
+    let mut rng = generator(seed, 13);
+    let (v, kappa) = (2f64.powi(-53), 2f64.powi(-12));
+    let (mut gone, mut barred, mut rims, mut equal) = (0u64, 0u64, 0u64, 0u64);
+    for case in 0..4_000 {
+        let scale = power(&mut rng, -20.0, 20.0);
+        let (eye, center) = ([0f32; 3], vector(&mut rng, scale));
+        let f = center.map(|x| -f64::from(x));
+        let radius = (length(f) * power(&mut rng, -7.0, 0.2)) as f32;
+        let (r, ff) = (f64::from(radius), dot(f, f));
+        let magnitude = f.map(|x| [x.abs() as f32; LANES]);
+        let error = double::short_error::<f64, _>(Scalar, magnitude, [radius; LANES]);
+        let sum: f64 = f.iter().map(|x| x.abs()).sum();
+        let stated = v * ff / (ff - r * r) * (16.0 + 1280.0 * sum / r);
+        let what = || format!("case {case} of CGT_SEED={seed}: {center:?}, {radius:e}");
+        if (ff / (2.0 * r * r) - 1.0).abs() < 1e-5 {
+            continue;
+        }
+        let apart = ff > 2.0 * r * r;
+        if apart {
+            assert!(stated < 2f64.powi(-27), "near the limit; {}", what());
+            let given = f64::from(error[0]);
+            assert!((stated..stated * 1.03).contains(&given), "{given:e}, not {stated:e}; {}", what());
+        } else {
+            assert_eq!(error[0], f32::INFINITY, "{}", what());
+        }
+        // Towards the ball or away from it, through it or past its rim, by the impact in radii.
+        let along = power(&mut rng, -20.0, 20.0);
+        let lanes: [[f64; 3]; LANES] = std::array::from_fn(|lane| {
+            let side = across(vector(&mut rng, 1.0).map(f64::from), f);
+            let impact = match lane % 4 {
+                0 | 1 => rng.random_range(0.0..0.99),
+                2 => (1.0 - kappa * rng.random_range(0.0f64..2.0)).sqrt(),
+                _ => rng.random_range(0.99..1.5),
+            };
+            // A line from the eye at that distance from the centre.
+            let sine = (impact * r / length(f)).min(0.999);
+            let tangent = sine / (1.0 - sine * sine).sqrt() * length(f) / length(side);
+            let sign = if lane % 5 == 0 { -along } else { along };
+            [0, 1, 2].map(|i| sign * (tangent * side[i] - f[i]) / length(f))
+        });
+        let dir: [[f32; LANES]; 3] = std::array::from_fn(|i| lanes.map(|d| d[i] as f32));
+        let [lo, hi] =
+            double::short_ends::<f64>(eye, &dir, &center.map(|x| [x; LANES]), &[radius; LANES], &error);
+        for lane in 0..LANES {
+            let d = dir.map(|d| f64::from(d[lane]));
+            let (a, b, q) = (dot(d, d), dot(f, d), ff - r * r);
+            let x = (b * b - a * q) / (a * r * r * kappa);
+            if (x - 1.0).abs() < 0.01 {
+                continue;
+            }
+            let [lo, hi] = [lo[lane], hi[lane]];
+            let what = || format!("{lo:e}, {hi:e}, {x} of the rim's measure, {d:?}; {}", what());
+            if apart && x > 1.0 && b < 0.0 {
+                let t = q / ((b * b - a * q).sqrt() - b);
+                let off = |end: f32| (f64::from(end) / t - 1.0).abs();
+                assert!(lo <= hi && off(lo) < 2e-7 && off(hi) < 2e-7, "not {t:e}; {}", what());
+                gone += 1;
+                equal += u64::from(lo == hi);
+            } else {
+                assert!(lo != hi, "{}", what());
+                barred += 1;
+                rims += u64::from(apart && b < 0.0 && x > 0.0);
+            }
+        }
+    }
+    eprintln!(
+        "CGT_SEED={seed}: {gone} rays go the short way, {equal} to the end; {barred} do not, {rims} for the rim"
+    );
+    assert!(equal > gone * 99 / 100 && gone > 10_000 && barred > 10_000 && rims > 1_000, "too few");
+}
+
 fn scattered(rng: &mut impl Rng, count: usize, extent: [f32; 3]) -> Vec<Sphere> {
     let mut ball = || Sphere {
         center: extent.map(|e| if e > 0.0 { rng.random_range(-e..e) + 3.0 } else { 3.0 }),
@@ -438,6 +660,223 @@ fn cells_by_overlap_are_those_that_are_met() {
     }
     eprintln!("CGT_SEED={seed}: {listed} entries, {spared} cells without");
     assert!(listed > 5_000 && spared > 5_000);
+}
+
+/// Balls and cells in whole numbers, many of which just touch: by overlap a ball is listed where the distance is its radius, and not beyond.
+#[test]
+fn cells_that_are_touched_list_the_ball() {
+    let ball = |center: f32, radius: f32| Bounds {
+        lo: [center - radius; 3],
+        hi: [center + radius; 3],
+        center: [center; 3],
+        radius,
+    };
+    let (balls, mut touched) = ([ball(8.0, 8.0), ball(8.0, 5.0), ball(7.0, 3.0)], 0);
+    let plan = Plan { voxelizer: Voxelizer::Overlap, resolution: Resolution::Fixed(16), ..Plan::safe() };
+    let grid = Grid::build(Scalar, &plan, &balls, &mut Events::default()).expect("nothing to refuse");
+    let whole: Vec<f32> = (0..=16u8).map(f32::from).collect();
+    assert!(grid.axes.iter().all(|axis| axis.planes == whole), "{:?}", grid.axes);
+    for (index, id) in (0..16 * 16 * 16).flat_map(|index| [(index, 1), (index, 2)]) {
+        let [center, radius] = [[8, 5], [7, 3]][id as usize - 1];
+        let off = |at: i32| (at - center).max(center - (at + 1)).max(0);
+        let cell = [index / 256, index / 16 % 16, index % 16];
+        // A point on a plane belongs to the cell above.
+        if !cell.iter().all(|at| (center - radius..=center + radius).contains(at)) {
+            continue;
+        }
+        let square: i32 = cell.iter().map(|at| off(*at).pow(2)).sum();
+        let mut ids = BTreeSet::new();
+        grid.for_each_id(index.unsigned_abs() as usize, true, |id| {
+            ids.insert(id);
+        });
+        assert_eq!(ids.contains(&id), square <= radius * radius, "cell {cell:?}, ball {id}, {square}");
+        touched += u32::from(square == radius * radius);
+    }
+    assert!(touched > 50, "only {touched} cells are just touched");
+}
+
+/// Cells are queues or lists as the plan has it, and hold something for those who are alive alone.
+#[test]
+fn cells_are_empty_for_who_is_not_alive() {
+    let seed = seed();
+    let spheres = scattered(&mut generator(seed, 14), 15, [4.0; 3]);
+    let balls: Vec<Bounds> = spheres.iter().map(|s| Bounds::outward(s.center, s.radius)).collect();
+    for (cells, queues) in [(Cells::Queue, true), (Cells::Lists, false)] {
+        let plan = Plan { cells, resolution: Resolution::Fixed(5), ..Plan::safe() };
+        let grid = Grid::build(Scalar, &plan, &balls, &mut Events::default()).expect("they have room");
+        assert_eq!(grid.has_queues(), queues, "{plan}");
+        let listed = |live: bool| {
+            let mut ids = 0;
+            (0..125).for_each(|cell| grid.for_each_id(cell, live, |_| ids += 1));
+            ids
+        };
+        let [alive, not] = [listed(true), listed(false)];
+        assert!(alive >= 15 && not == 0, "CGT_SEED={seed}: {alive} ids, else {not}; {plan}");
+    }
+}
+
+/// A grid has from 1 to 240 cells on an axis; what else is asked for is refused with its number, by blocks and by tiles.
+#[test]
+fn resolutions_are_refused_beyond_their_limits() {
+    let balls = [-1.0, 0.0, 2.0].map(|x| Sphere { center: [x; 3], radius: 0.25, color: [1; 3] });
+    let scene = Scene::new(balls.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(8, 8).expect("small");
+    let camera = Camera::new([0.0; 3], [0.5; 3], [0.1, 0.0, -0.1], [0.0, 0.1, -0.1], size).expect("valid");
+    for plan in [Plan::safe(), Plan::fast()] {
+        let render = |resolution| {
+            let tracer = Tracer::new(Plan { resolution, ..plan }, Level::SCALAR);
+            tracer.render(&scene, &camera).map(|_| ())
+        };
+        for cells in [0, 241, 255] {
+            for resolution in [Resolution::Fixed(cells), Resolution::UpTo(cells)] {
+                assert_eq!(render(resolution), Err(RenderError::Resolution { cells }), "{resolution:?}");
+            }
+        }
+        for resolution in [Resolution::Fixed(1), Resolution::UpTo(1), Resolution::UpTo(240)] {
+            assert_eq!(render(resolution), Ok(()), "{resolution:?}");
+        }
+    }
+}
+
+/// The cells of a slice reach as far as the packet's slopes and the pad of the farthest slice, also where neither the eye's place nor a
+/// widening adds to it.
+#[test]
+fn slices_are_padded_for_the_farthest() {
+    let ball = Bounds { lo: [0.0; 3], hi: [16.0; 3], center: [8.0; 3], radius: 8.0 };
+    let plan = Plan { resolution: Resolution::Fixed(16), ..Plan::safe() };
+    let grid = Grid::build(Scalar, &plan, &[ball], &mut Events::default()).expect("nothing to refuse");
+    let u = NEAREST as f32;
+    for axis in 0..3 {
+        // The pad is 16u of 16: rays nearer than that to the next cell come there, others do not.
+        for (below, more) in [(1.0, 1), (8.0, 1), (4096.0, 0)] {
+            let slope = [[1.0 - below * u; LANES]; 2];
+            let frustum = Frustum { heading: Heading::new(axis, true), slopes: [slope; 2] };
+            for (margins, more) in [(Margins::Derived, more), (Margins::None, 0)] {
+                let slices = frustum.slices(Scalar, [0.0; 3], &grid, margins);
+                for s in 0..16u8 {
+                    let last = [0, 1].map(|side| slices.last[side][usize::from(s)]);
+                    let wanted = (i32::from(s) + more).min(15);
+                    assert_eq!(last, [wanted; 2], "slice {s} on axis {axis}, {below}u below 1, {margins:?}");
+                }
+            }
+        }
+    }
+}
+
+/// The widening of a grid by centres counts for the pad as the farthest slice does.
+#[test]
+fn slices_are_padded_for_the_widening() {
+    let ball = |at: f32| Bounds { lo: [at - 4.0; 3], hi: [at + 4.0; 3], center: [at; 3], radius: 4.0 };
+    let plan = Plan { voxelizer: Voxelizer::ByCenter, resolution: Resolution::Fixed(16), ..Plan::safe() };
+    let grid = Grid::build(Scalar, &plan, &[ball(0.0), ball(16.0)], &mut Events::default());
+    let grid = grid.expect("nothing to refuse");
+    let u = NEAREST as f32;
+    // Slice s ends at s + 1 and is widened by 4 + 64u; what is seen there ends 4 + 64u and the pad, 16u of 20, beyond the slope's end: at
+    // s + 9 and 448u more, but for what the slope is below 1.
+    for (below, more) in [(384.0, 1), (512.0, 0)] {
+        for s in 0..=6u8 {
+            let slope = [[1.0 - below / f32::from(s + 5) * u; LANES]; 2];
+            let frustum = Frustum { heading: Heading::new(0, true), slopes: [slope; 2] };
+            let slices = frustum.slices(Scalar, [0.0; 3], &grid, Margins::Derived);
+            let last = [0, 1].map(|side| slices.last[side][usize::from(s)]);
+            assert_eq!(last, [i32::from(s) + 8 + more; 2], "slice {s}, {below}u below s + 9");
+        }
+    }
+}
+
+/// The range of slopes between directions is that of their slopes, and beyond it (4 s/A + 16u) (1 + |slope|), within −1 to 1; all of it where
+/// A is not above 1024 s.
+#[test]
+fn ranges_of_slopes_are_those_derived() {
+    let seed = seed();
+    let mut rng = generator(seed, 15);
+    for case in 0..20_000 {
+        let size = power(&mut rng, -19.0, 19.0);
+        let corners: [[f32; 3]; 4] = std::array::from_fn(|_| {
+            let a = rng.random_range(0.5..1.0) * size;
+            [a, a * rng.random_range(-1.0..1.0), a * rng.random_range(-1.0..1.0)].map(|x| x as f32)
+        });
+        let slack = (size * power(&mut rng, -30.0, -9.0)) as f32;
+        let given = tile::range(Scalar, slack, corners.map(|corner| corner.map(|x| [x; LANES])));
+        let least = corners.iter().map(|c| f64::from(c[0])).fold(f64::INFINITY, f64::min);
+        for (side, [lo, hi]) in given.iter().enumerate() {
+            let given = [f64::from(lo[0]), f64::from(hi[0])];
+            let slopes = corners.map(|c| f64::from(c[side + 1]) / f64::from(c[0]));
+            let ends = [f64::min as fn(f64, f64) -> f64, f64::max]
+                .map(|pick| slopes.into_iter().reduce(pick).expect("four"));
+            let steepest = 1.0 + ends[0].abs().max(ends[1].abs());
+            let pad = (4.0 * f64::from(slack) / least + 16.0 * NEAREST) * steepest;
+            let wanted = if least <= 1024.0 * f64::from(slack) {
+                [-1.0, 1.0]
+            } else {
+                [(ends[0] - pad).max(-1.0), (ends[1] + pad).min(1.0)]
+            };
+            // A quotient, and what makes the pad, are rounded.
+            let off = 4.0 * NEAREST * steepest;
+            assert!(
+                (0..2).all(|end| (given[end] - wanted[end]).abs() <= off),
+                "{given:?}, not {wanted:?}; case {case} of CGT_SEED={seed}: slack {slack:e}, {corners:?}"
+            );
+        }
+    }
+}
+
+/// A tile that looks along one row of cells, wherever in the grid that is and whatever its axis and sense, looks at its cells alone.
+#[test]
+fn cells_of_narrow_tiles_are_counted() {
+    let at = |i: usize, corner: usize| if corner >> i & 1 == 0 { 0.0 } else { 16.0 };
+    let corners =
+        (0..8).map(|corner| Sphere { center: [0, 1, 2].map(|i| at(i, corner)), radius: 0.01, color: [1; 3] });
+    let scene = Scene::new(corners.collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(4, 4).expect("small");
+    let plan = Plan { resolution: Resolution::Fixed(16), packet: Packet::Tile { side: 1 }, ..Plan::fast() };
+    for axis in 0..3 {
+        let (second, third) = ((axis + 1) % 3, (axis + 2) % 3);
+        for (from, sense) in [(-1.0, 1.0), (17.0, -1.0)] {
+            for [y, z] in [[0.5, 12.5], [12.5, 9.5], [14.5, 1.5]] {
+                let vector = |x: f32, y: f32, z: f32| {
+                    let mut v = [x; 3];
+                    (v[second], v[third]) = (y, z);
+                    v
+                };
+                let (du, dv) = (vector(0.0, 0.001, 0.0), vector(0.0, 0.0, 0.001));
+                let camera = Camera::new(vector(from, y, z), vector(sense, -0.002, -0.002), du, dv, size);
+                let (counts, _) = costs(&scene, &camera.expect("valid"), plan, 1);
+                assert_eq!(
+                    (counts.cells, counts.candidates),
+                    (16, 0),
+                    "axis {axis}, {sense}, {y}, {z}: {counts:?}"
+                );
+            }
+        }
+    }
+}
+
+/// Who knows what is seen shows it also where a tile's rays go along several axes.
+#[test]
+fn the_clairvoyant_sees_along_all_axes() {
+    let seed = seed();
+    let mut rng = generator(seed, 16);
+    let (mut splits, mut shown) = (0, 0);
+    for case in 0..12 {
+        let scene = Scene::new(scattered(&mut rng, 90, [3.0; 3]), [7; 3], DEFAULT_LIGHT).expect("valid");
+        let size = Size::new(rng.random_range(20..45), rng.random_range(20..45)).expect("small");
+        let camera =
+            Camera::new([3.0; 3], [-1.1, 1.3, -1.0], [0.11, 0.013, 0.02], [0.017, -0.12, 0.01], size);
+        let camera = camera.expect("valid");
+        for side in [1, 2, 5, 16] {
+            let plan = Plan { packet: Packet::Tile { side }, ..Plan::fast() };
+            let (_, image) = costs(&scene, &camera, plan, 1);
+            let mut session = Tracer::new(plan, Level::best().expect("a level")).session().expect("memory");
+            let known = session.render_known(&scene, &camera, &Known::of(&image)).expect("it is known");
+            let what = format!("case {case} of CGT_SEED={seed}, {plan}");
+            assert_eq!((&known.image.ids, &known.image.rgba), (&image.ids, &image.rgba), "{what}");
+            shown += image.ids.iter().filter(|id| **id != MISS).count();
+        }
+        splits += split_blocks(&camera);
+    }
+    eprintln!("CGT_SEED={seed}: {splits} blocks along several axes, {shown} pixels with a sphere");
+    assert!(splits > 40 && shown > 5_000, "too little was at stake: {splits}, {shown}");
 }
 
 /// A row of spheres in a grid with as many slices as there may be, looked through from end to end by every loop that is right.

@@ -226,6 +226,75 @@ fn wide_views_from_within_are_exact() {
     assert!(split > cases * 9 / 10, "{split} of {cases} cameras");
 }
 
+/// Tiles of more than sixteen blocks across, whose ranges take more than one row of lanes.
+#[test]
+fn tiles_of_many_blocks_are_exact() {
+    let seed = seed();
+    let mut rng = generator(seed, 0);
+    let mut ball = || Sphere {
+        center: [
+            rng.random_range(-10.0f32..10.0),
+            rng.random_range(-0.4f32..0.4),
+            rng.random_range(-1.0f32..1.0),
+        ],
+        radius: rng.random_range(0.02f32..0.2),
+        color: std::array::from_fn(|_| rng.random()),
+    };
+    let scene = Scene::new((0..300).map(|_| ball()).collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(300, 12).expect("a size");
+    let camera =
+        Camera::new([0.0, 0.0, 15.0], [-0.66, 0.03, -1.0], [0.0044, 0.0, 0.0], [0.0, -0.005, 0.0], size);
+    let camera = camera.expect("a camera");
+    let truth = exact(&scene, &camera);
+    let hits = truth.ids.iter().filter(|id| **id != MISS).count();
+    for side in [16, 17, 32, 40, 64] {
+        let plan = Plan { packet: Packet::Tile { side }, ..Plan::fast() };
+        let given = Tracer::new(plan, Level::best().expect("a level")).render(&scene, &camera);
+        let given = given.expect("nothing to refuse").image;
+        assert_equal(&truth, &given, &|| format!("CGT_SEED={seed}, {plan}"));
+    }
+    eprintln!("CGT_SEED={seed}: {hits} pixels show a sphere");
+    assert!(hits > 500 && hits < 3_000, "{hits} pixels show a sphere");
+}
+
+/// The eye within a few steps of f32 of a sphere's surface, on either side or on it, so that f32 cannot tell the side, and another sphere
+/// inside that one: whichever of the two roots is taken for the hit decides what is seen.
+#[test]
+fn eyes_about_a_surface_see_what_is_there() {
+    let size = Size::new(12, 12).expect("a size");
+    let plans = [1, 3].map(|side| Plan { packet: Packet::Tile { side }, ..Plan::fast() });
+    let plans = [Plan { packet: Packet::Block, ..Plan::fast() }, plans[0], plans[1]];
+    let mut seen = [0u32; 3];
+    for scale in [1.0, 2f32.powi(-9), 2f32.powi(9)] {
+        for steps in -4..=4i32 {
+            let radius = f32::from_bits(1f32.to_bits().wrapping_add_signed(steps)) * scale;
+            let ball = |radius, red| Sphere { center: [0.0, 0.0, -scale], radius, color: [red, 9, 9] };
+            let spheres = vec![ball(radius, 200), ball(0.5 * scale, 100)];
+            let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+            for forward in [-1.0, 1.0] {
+                let corner = [-0.9, 0.9, forward];
+                let camera = Camera::new([0.0; 3], corner, [0.15, 0.0, 0.0], [0.0, -0.15, 0.0], size);
+                let camera = camera.expect("a camera");
+                let truth = exact(&scene, &camera);
+                for plan in plans {
+                    for level in [Level::SCALAR, Level::best().expect("a level")] {
+                        let given = Tracer::new(plan, level).render(&scene, &camera);
+                        let given = given.expect("nothing to refuse").image;
+                        assert_equal(&truth, &given, &|| {
+                            format!("{steps} steps, scale {scale:e}, {forward}; {plan}, {level}")
+                        });
+                    }
+                }
+                for id in truth.ids {
+                    seen[if id == MISS { 2 } else { id as usize }] += 1;
+                }
+            }
+        }
+    }
+    eprintln!("{seen:?} pixels show the sphere at the eye, the one in it, and none");
+    assert!(seen.iter().all(|n| *n > 500), "{seen:?}");
+}
+
 /// What a session keeps from frame to frame is memory alone.
 #[test]
 fn a_frame_does_not_depend_on_the_one_before() {
