@@ -8,8 +8,8 @@ use crate::report::words::count;
 use std::fmt::Write;
 
 const WIDTH: f64 = 720.0;
-const LEFT: f64 = 330.0;
-const RIGHT: f64 = 640.0;
+const LEFT: f64 = 390.0;
+const RIGHT: f64 = 630.0;
 const TOP: f64 = 30.0;
 const ROW: f64 = 20.0;
 
