@@ -187,7 +187,7 @@ fn a_program_that_breaks_the_protocol_is_named_and_is_no_picture() {
         *error.downcast::<ForeignError>().expect("one of its own")
     };
     let out = "out.write(b\"d\" +";
-    let read_all = "import sys; sys.stdin.buffer.read(68 + 5 * 16 + 32 * 24); o = sys.stdout.buffer; ";
+    let read_all = "import sys; sys.stdin.buffer.read(68 + 32 * 24); o = sys.stdout.buffer; ";
     assert!(matches!(
         failure("ends.py", "import sys; sys.exit(7)"),
         ForeignError::Ended { how, got: 0, due: 1, .. } if how.contains('7')
@@ -196,7 +196,7 @@ fn a_program_that_breaks_the_protocol_is_named_and_is_no_picture() {
         failure(
             "short.py",
             &format!(
-                "{read_all} o.write(b'r'); o.flush(); sys.stdin.buffer.read(1); o.write(b'd' + bytes(100))"
+                "{read_all} o.write(b'r'); o.flush(); sys.stdin.buffer.read(1 + 5 * 16); o.write(b'd' + bytes(100))"
             )
         ),
         ForeignError::Ended { got: 100, due: 256, .. }
@@ -365,8 +365,7 @@ fn a_rust_tracer_is_judged_directly_and_as_a_program() {
     let truth =
         reference::Tracer::new(reference::Arithmetic::Exact).render(&scene, &camera).expect("small").image;
     assert_ne!(judge(&scene, &camera, &truth, &image, own.promise(), None).verdict, Verdict::Wrong);
-    let mut question = wire::question(&scene, &camera).expect("small");
-    question.push(wire::GO);
+    let question = wire::question(&scene, &camera).expect("small").concat();
     let mut answer = Vec::new();
     serve(&own, 1, &mut Cursor::new([question.clone(), question].concat()), &mut answer).expect("served");
     let (read, done) = ([wire::READ], [wire::DONE]);
@@ -374,13 +373,18 @@ fn a_rust_tracer_is_judged_directly_and_as_a_program() {
     let t: Vec<u8> = image.t.iter().flat_map(|t| t.to_le_bytes()).collect();
     let once = [&read[..], &done, &ids, &t].concat();
     assert_eq!(answer, [once.clone(), once].concat());
-    // A stream that is cut is no question.
-    let cut = wire::question(&scene, &camera).expect("small");
-    for length in [3, 19, 60, 100, cut.len() - 1] {
-        let ended = wire::asked(&mut Cursor::new(&cut[..length]));
+    // A stream that is cut is no question, nor is one without its go.
+    let [first, last] = wire::question(&scene, &camera).expect("small");
+    for length in [3, 19, 60, 100, first.len() - 1] {
+        let ended = wire::asked(&mut Cursor::new(&first[..length]));
         assert!(
             if length == 3 { ended.is_ok_and(|asked| asked.is_none()) } else { ended.is_err() },
             "{length}"
         );
     }
+    let asked = wire::asked(&mut Cursor::new(&first)).expect("whole").expect("a question");
+    assert_eq!(asked, (camera, 100));
+    let told = |bytes: &[u8]| wire::told(&mut Cursor::new(bytes), 100).map(|scene| scene.spheres().len()).ok();
+    assert_eq!(told(&last), Some(100));
+    assert_eq!([told(&last[..last.len() - 1]), told(&last[1..]), told(&[])], [None; 3]);
 }

@@ -16,10 +16,11 @@ int main(void) {
     while (fread(&head, sizeof head, 1, stdin) == 1) {
         if (head.magic != 0x51544743 /* CGTQ */ || head.version != 1) return 1;
         size_t m = (size_t)head.width * head.height;
-        float *camera = more(48), *sphere = more(16 * (size_t)head.n), *ray = more(24 * m), *t = malloc(4 * m);
+        float *camera = more(48), *ray = more(24 * m), *t = malloc(4 * m);
         uint32_t *id = malloc(4 * m);
         if (!t || !id) return 1;
         putchar('r'), fflush(stdout), getchar();
+        float *sphere = more(16 * (size_t)head.n);
         for (size_t k = 0; k < m; k++) {
             const float *e = ray + 6 * k, *d = e + 3;
             double a = (double)d[0] * d[0] + (double)d[1] * d[1] + (double)d[2] * d[2], nearest = INFINITY;

@@ -1,5 +1,5 @@
-//! A foreign tracer in charts and maps. Its time is from the judge's word to go until it says that it is done, by the judge's clock: what goes over
-//! the pipe before and after is not counted, building is.
+//! A foreign tracer in charts and maps. Its time is from the judge's word to go until it says that it is done, by the judge's clock: rays before
+//! and answers after are not counted, taking the spheres and building are.
 
 use super::{Answers, Foreign};
 use crate::bench::contestant::{Contestant, Frame, Kind, Layers, Oath};

@@ -4,7 +4,7 @@
 //! A thread writes and a thread reads, so that neither side can keep the other from speaking, and so that a silent tracer can be given up.
 
 use super::ForeignError;
-use super::wire::{DONE, GO, MOST_TEXT, READ, REFUSED};
+use super::wire::{DONE, MOST_TEXT, READ, REFUSED};
 use std::collections::VecDeque;
 use std::io::{Read, Write};
 use std::process::{Child, Command, Stdio};
@@ -70,12 +70,12 @@ impl Process {
     }
 
     /// Asks a question, whose answer has so many bytes.
-    pub(super) fn ask(&mut self, question: Vec<u8>, length: usize) -> Result<Answer, ForeignError> {
+    pub(super) fn ask(&mut self, [first, last]: [Vec<u8>; 2], length: usize) -> Result<Answer, ForeignError> {
         self.nothing_more()?;
-        self.send(question);
+        self.send(first);
         self.said(READ, "once it had read its rays")?;
         let start = Instant::now();
-        self.send(vec![GO]);
+        self.send(last);
         self.said(DONE, "once it had traced them")?;
         let took = start.elapsed();
         Ok(Answer { bytes: self.take(length, "as its answers")?, took })

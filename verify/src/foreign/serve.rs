@@ -1,8 +1,8 @@
 //! The other end of the pipe: any [`Subject`] as a program that answers questions.
 
-use super::wire::{DONE, GO, MOST_TEXT, READ, REFUSED, asked};
+use super::wire::{DONE, MOST_TEXT, READ, REFUSED, asked, told};
 use crate::subject::Subject;
-use std::io::{self, ErrorKind, Read, Write};
+use std::io::{self, Read, Write};
 
 /// Answers the questions of `input` on `output` by a subject's own pictures, until they end. Its promise and its colours are not asked for.
 ///
@@ -14,14 +14,10 @@ pub fn serve(
     input: &mut impl Read,
     output: &mut impl Write,
 ) -> io::Result<()> {
-    while let Some((scene, camera)) = asked(input)? {
+    while let Some((camera, spheres)) = asked(input)? {
         output.write_all(&[READ])?;
         output.flush()?;
-        let mut go = [0];
-        input.read_exact(&mut go)?;
-        if go != [GO] {
-            return Err(io::Error::new(ErrorKind::InvalidData, format!("`{}` for `g`", go.escape_ascii())));
-        }
+        let scene = told(input, spheres)?;
         match subject.render(&scene, &camera, threads, &|| ()) {
             Ok(rendered) => {
                 output.write_all(&[DONE])?;
