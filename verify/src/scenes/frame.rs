@@ -11,10 +11,9 @@
 //! All in f64, rounded to f32 once. Tangents come from the system's library and may differ in their last bit
 //! between systems; who needs a camera to the bit keeps it (`write::json`).
 
+use super::vector::{Vector, cross, dot, sub, unit};
 use contract::{Animation, Camera, CameraError, Scene, Size, Sphere};
 use thiserror::Error;
-
-type Vector = [f64; 3];
 
 /// The part of half the picture that stays free round the scene.
 pub const MARGIN: f64 = 0.04;
@@ -248,27 +247,4 @@ pub fn middle<'a>(spheres: impl Iterator<Item = &'a Sphere>) -> Vector {
 fn least_axis(v: Vector) -> Vector {
     let least = (0..3).min_by(|&i, &j| v[i].abs().total_cmp(&v[j].abs())).unwrap_or(0);
     std::array::from_fn(|i| if i == least { 1.0 } else { 0.0 })
-}
-
-fn sub(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-/// Of length 1; `None` for zero. Scaled first, so that nothing over- or underflows.
-fn unit(v: Vector) -> Option<Vector> {
-    let largest = v.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    if !(largest > 0.0 && largest.is_finite()) {
-        return None;
-    }
-    let v = v.map(|x| x / largest);
-    let length = dot(v, v).sqrt();
-    Some(v.map(|x| x / length))
 }

@@ -7,4 +7,5 @@ pub mod elements;
 pub mod frame;
 pub mod generate;
 pub mod read;
+pub(crate) mod vector;
 pub mod write;

@@ -6,10 +6,9 @@
 //! made. Until it is first moved the camera is the one it began with, to the bit.
 
 use crate::scenes::frame::{Framing, FramingError};
+use crate::scenes::vector::{Vector, cross, dot, sub, unit};
 use contract::{Camera, Size, Sphere};
 use std::f64::consts::{FRAC_PI_2, TAU};
-
-type Vector = [f64; 3];
 
 /// How many times nearer or farther than at first the eye may go.
 pub const REACH: f64 = 1e4;
@@ -172,23 +171,6 @@ impl Orbit {
         let right = unit(cross(away, self.axes[0])).unwrap_or(self.axes[1]);
         [right, cross(right, away)]
     }
-}
-
-fn sub(a: Vector, b: Vector) -> Vector {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(v: Vector) -> Option<Vector> {
-    let length = dot(v, v).sqrt();
-    (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
 }
 
 /// Of length 1, unless it is so short that its direction is noise.
