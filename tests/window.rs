@@ -460,8 +460,8 @@ fn the_help_lists_the_keys() {
 
 // ---- terminal ----
 
-/// The program in a terminal of 40 columns and 13 rows, to which `keys` are typed after a while.
-fn terminal(words: &str, keys: &[u8]) -> Option<(Output, String)> {
+/// The program in a terminal of 40 columns and 13 rows, to which `keys` are typed after a while, some time between any two strokes.
+fn terminal(words: &str, keys: &[&[u8]]) -> Option<(Output, String)> {
     let line = format!("stty cols 40 rows 13 && exec '{CGT}' view {words}");
     let mut command = Command::new("script");
     command.args(["-qec", &line, "/dev/null"]).env("COLORTERM", "truecolor").env("TERM", "xterm-256color");
@@ -472,10 +472,12 @@ fn terminal(words: &str, keys: &[u8]) -> Option<(Output, String)> {
     };
     let mut typed: ChildStdin = child.stdin.take().expect("a pipe");
     let mut child = Ended(child);
-    let keys = keys.to_vec();
+    let keys: Vec<Vec<u8>> = keys.iter().map(|keys| keys.to_vec()).collect();
     let typist = std::thread::spawn(move || {
-        std::thread::sleep(Duration::from_millis(1_500));
-        _ = typed.write_all(&keys).and_then(|()| typed.flush());
+        for keys in keys {
+            std::thread::sleep(Duration::from_millis(1_500));
+            _ = typed.write_all(&keys).and_then(|()| typed.flush());
+        }
         // Held open until the program is done, as a keyboard is.
         typed
     });
@@ -518,13 +520,11 @@ fn halves(said: &str) -> Vec<[u32; 2]> {
 /// A picture of 40 by 24 half characters is the tracer's, and the terminal is left as it was.
 #[test]
 fn a_terminal_shows_the_picture_and_is_left_clean() {
-    let Some((output, said)) = terminal("2juy --terminal=blocks --frames 2", b"") else { return };
+    let Some((output, said)) = terminal("2juy --terminal=blocks --frames 2", &[]) else { return };
     assert!(output.status.success(), "{said}");
     let mut same = viewer("2juy", [40, 24], 1);
     same.draw().expect("a picture");
-    let rows: Vec<_> = same.canvas().pixels().chunks(40).collect();
-    let wanted: Vec<[u32; 2]> =
-        rows.chunks(2).flat_map(|pair| pair[0].iter().zip(pair[1]).map(|(up, low)| [*up, *low])).collect();
+    let wanted = wanted(&same);
     assert_eq!(halves(&said), wanted);
     clean(&said);
     eprintln!("{} half blocks", 2 * wanted.len());
@@ -536,11 +536,32 @@ fn clean(said: &str) {
     assert!(place("\u{1b}[?25l") < place("\u{1b}[?25h"), "the cursor is back");
 }
 
+/// H shows the keys, there as in a window.
+#[test]
+fn the_keys_are_told_on_a_terminal() {
+    let Some((output, said)) = terminal("2juy --terminal=blocks --paused", &[b"h", b"q"]) else { return };
+    assert!(output.status.success(), "{said}");
+    let mut same = viewer("2juy", [40, 24], 0);
+    same.player.playing = false;
+    same.draw().expect("a picture");
+    let plain = wanted(&same);
+    assert!(same.command(Asked::Overlay(Overlay::Help)) && same.write());
+    assert_ne!(wanted(&same), plain, "nothing is at stake");
+    assert_eq!(halves(&said), wanted(&same));
+    clean(&said);
+}
+
+/// What a terminal shows of a view of 40 columns.
+fn wanted(viewer: &Viewer) -> Vec<[u32; 2]> {
+    let rows: Vec<_> = viewer.canvas().pixels().chunks(40).collect();
+    rows.chunks(2).flat_map(|pair| pair[0].iter().zip(pair[1]).map(|(up, low)| [*up, *low])).collect()
+}
+
 /// Ctrl-C and Q leave it clean too; a pause is told.
 #[test]
 fn keys_end_a_terminal_cleanly() {
     for keys in [&b"\x03"[..], b"q", b" q"] {
-        let Some((output, said)) = terminal("2juy --terminal=blocks", keys) else { return };
+        let Some((output, said)) = terminal("2juy --terminal=blocks", &[keys]) else { return };
         assert!(output.status.success(), "{keys:?}: {said}");
         clean(&said);
     }

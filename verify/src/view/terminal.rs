@@ -106,7 +106,8 @@ pub fn show(viewer: &mut Viewer, limit: Limit, way: Way) -> Result<Run, Terminal
             let now = Instant::now();
             viewer.player.advance(now - last);
             last = now;
-            if viewer.draw()? {
+            let drawn = viewer.draw()?;
+            if viewer.write() | drawn {
                 let start = Instant::now();
                 put(viewer, &config, rows)?;
                 viewer.presented(start.elapsed());
