@@ -305,7 +305,11 @@ fn a_campaign_with_too_little_at_stake_has_no_verdict() {
     done(&only, "1/1", shards.path());
     let merged = merge(&only, &places(&shards)).expect("whole");
     assert_eq!(merged.outcome, Outcome::TooLittle);
-    assert!(merged.lacking[0].contains("of at least 1000000000"), "{:?}", merged.lacking);
+    assert!(
+        merged.lacking[0].contains("of at least 1\u{202f}000\u{202f}000\u{202f}000"),
+        "{:?}",
+        merged.lacking
+    );
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! What is judged: any tracer that takes a scene and a camera and gives an image, with its promise.
 
 use crate::case::{Asked, MOST_WORKERS};
+use crate::verdict::Verdict;
 use contract::{Camera, Image, Scene};
 use optimized::grid::MAX_CELLS;
 use optimized::plan::{Arithmetic, Cells, Margins, OnEvent, Packet, Resolution, Voxelizer};
@@ -57,6 +58,15 @@ impl Promise {
         match self {
             Self::Exact => Naively::Exact,
             Self::Rounded(rounding) | Self::EqualToNaive(rounding) => rounding.naive(),
+        }
+    }
+
+    /// The worst verdict with which it is kept. Who states nothing of a scene has broken no promise there.
+    #[must_use]
+    pub fn worst(self) -> Verdict {
+        match self {
+            Self::Exact => Verdict::Equal,
+            Self::Rounded(_) | Self::EqualToNaive(_) => Verdict::Undecidable,
         }
     }
 

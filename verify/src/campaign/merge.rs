@@ -4,6 +4,7 @@
 use super::plan::Plan;
 use super::shard::{Head, Lines, ShardError, Which, read};
 use super::unit::{Broken, Found};
+use crate::report::words;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -161,10 +162,13 @@ pub fn merge(plan: &Plan, places: &[PathBuf]) -> Result<Merged, MergeError> {
         }
         sum.and(found);
     }
-    let count = |what: &String| sum.counts.get(what).copied().unwrap_or(0);
-    let lacking = plan.least.iter().filter(|(what, least)| count(what) < **least);
-    let lacking: Vec<String> =
-        lacking.map(|(what, least)| format!("{what}: {} of at least {least}", count(what))).collect();
+    let of = |what: &String| sum.counts.get(what).copied().unwrap_or(0);
+    let lacking = plan.least.iter().filter(|(what, least)| of(what) < **least);
+    let lacking: Vec<String> = lacking
+        .map(|(what, least)| {
+            format!("{what}: {} of at least {}", words::count(of(what)), words::count(*least))
+        })
+        .collect();
     let outcome = match (failures.is_empty(), lacking.is_empty()) {
         (false, _) => Outcome::Broken,
         (true, false) => Outcome::TooLittle,
@@ -217,6 +221,7 @@ pub struct Progress {
 /// [`ShardError`] for a folder or a file that cannot be read, or is of another plan.
 pub fn status(plan: &Plan, folder: &Path) -> Result<Vec<Progress>, ShardError> {
     let fault = |cause| ShardError::File { path: folder.into(), cause };
+    let units = plan.units().count() as u64;
     let mut all: Vec<Progress> = Vec::new();
     for entry in std::fs::read_dir(folder).map_err(fault)? {
         let path = entry.map_err(fault)?.path();
@@ -232,9 +237,8 @@ pub fn status(plan: &Plan, folder: &Path) -> Result<Vec<Progress>, ShardError> {
             return Err(ShardError::Other { path, why });
         }
         let which = lines.head.which;
-        let own = (0..plan.units().count() as u64).filter(|unit| which.has(*unit)).count() as u64;
         let failures = lines.found.iter().map(|found| found.failures.len() as u64).sum();
-        all.push(Progress { which, done: [lines.found.len() as u64, own], failures, whole });
+        all.push(Progress { which, done: [lines.found.len() as u64, which.share(units)], failures, whole });
     }
     all.sort_by_key(|progress| (progress.which.of, progress.which.shard));
     Ok(all)

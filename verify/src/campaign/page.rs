@@ -1,15 +1,34 @@
-//! A campaign as a page: what it comes to, what was at stake as bars, histograms, failures with their commands.
+//! A campaign as a page: what it comes to, what was at stake as bars and as a table, histograms, failures with their commands.
 
 use super::merge::{Merged, Outcome};
 use super::text::{bin, sentence};
 use crate::plot::{alone, bars, escaped};
 use crate::report::Environment;
 use crate::report::chapter::Chapter;
+use crate::report::words::count;
 use askama::Template;
 use std::fmt::Write;
 
-/// Counts of what is drawn, not of what it cost.
-const COSTS: [&str; 3] = ["cells visited", "candidates", "grids"];
+/// What the chart shows of each property and film: what was judged, and how much of it lay where tracers go wrong.
+const SHOWN: [&str; 17] = [
+    "rays",
+    "hits",
+    "rays near tangents",
+    "rays from inside a sphere",
+    "rays from a surface",
+    "rays with an equal second hit",
+    "spheres within 4 ulp of a plane",
+    "rays that f32 left to f64",
+    "rays that f64 left to integers",
+    "t rounded by integers",
+    "frames refused",
+    "frames wrong",
+    "rays whose answer is known",
+    "known tangents",
+    "known ties",
+    "pixels with spheres permuted",
+    "pixels with axes turned",
+];
 
 /// The page.
 ///
@@ -43,18 +62,23 @@ pub fn stakes(merged: &Merged) -> String {
 }
 
 fn chart(merged: &Merged) -> String {
-    let counts = merged.counts.iter().filter(|(what, _)| {
-        let what = what.split(": ").nth(1).unwrap_or_default();
-        !COSTS.contains(&what)
-    });
-    let rows: Vec<(String, u64)> = counts.map(|(what, n)| (what.clone(), *n)).collect();
+    let counts = merged
+        .counts
+        .iter()
+        .filter(|(what, _)| what.split(": ").nth(1).is_some_and(|what| SHOWN.contains(&what)));
+    let failures = ("different failures".to_owned(), merged.failures.len() as u64);
+    let rows: Vec<(String, u64)> = counts.map(|(what, n)| (what.clone(), *n)).chain([failures]).collect();
     bars::bars("What was at stake", "how many", &rows)
 }
 
 fn body(merged: &Merged) -> String {
     let mut body = String::from("<section><h2>What was at stake</h2>");
     body += &chart(merged);
-    body += "</section>";
+    body += "<details><summary>All counts</summary><table class=\"plainly\"><tbody>";
+    for (what, n) in &merged.counts {
+        _ = write!(body, "<tr><td>{}</td><td>{}</td></tr>", escaped(what), count(*n));
+    }
+    body += "</tbody></table></details></section>";
     for (what, bins) in &merged.histograms {
         let rows: Vec<(String, u64)> = bins.iter().enumerate().map(|(k, n)| (bin(k), *n)).collect();
         _ = write!(

@@ -35,7 +35,7 @@ use thiserror::Error;
 
 /// Chunks of drawn cases that are one unit.
 pub const CHUNKS: u64 = 16;
-/// The most units of a plan: numbers of units are written with as many digits in no place, but counted in memory when merged.
+/// The most units of a plan: when shards are merged, what each has found is in memory.
 pub const MOST_UNITS: u64 = 100_000_000;
 
 /// A campaign.

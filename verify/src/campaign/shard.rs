@@ -58,6 +58,12 @@ impl Which {
         unit % self.of == self.shard - 1
     }
 
+    /// How many of so many units are its own.
+    #[must_use]
+    pub fn share(self, units: u64) -> u64 {
+        units / self.of + u64::from(self.shard <= units % self.of)
+    }
+
     /// Its file, when it is whole.
     #[must_use]
     pub fn file(self, folder: &Path) -> PathBuf {

@@ -5,7 +5,6 @@ use crate::bench::scene::{BenchError, truth};
 use crate::case::shrink::shrink;
 use crate::case::{Case, worst};
 use crate::judge::judge;
-use crate::properties::Property;
 use crate::properties::stakes::Stakes;
 use crate::scenes::read::Loaded;
 use crate::subject::{Naive, Promise, Subject};
@@ -171,7 +170,7 @@ impl<'a> Bench<'a> {
                     frames: Animation::from(scene.clone()),
                     camera,
                     asked,
-                    expected: Verdict::WithinBound,
+                    expected: Verdict::Wrong,
                     pixel: None,
                     why: String::new(),
                 };
@@ -197,7 +196,7 @@ fn smaller(of: &str, case: &Case, message: &str, fails: &dyn Fn(&Case) -> bool) 
     let small = shrink(case, QUESTIONS, fails);
     // What is to be held of it from now on: that it keeps its promise. The message would tell equal cases apart.
     let why = format!("found by a campaign: {of}");
-    let small = Case { expected: Verdict::WithinBound, pixel: None, why, ..small };
+    let small = Case { expected: small.asked.promise().worst(), pixel: None, why, ..small };
     Broken { of: of.into(), message: message.into(), case: small.to_json() }
 }
 
@@ -228,10 +227,4 @@ fn add_bins(sum: &mut Vec<u64>, bins: &[u64]) {
     for (sum, n) in sum.iter_mut().zip(bins) {
         *sum += n;
     }
-}
-
-/// Whether a case breaks what a failure is of, if that is a property.
-#[must_use]
-pub fn property_of(of: &str) -> Option<Property> {
-    Property::ALL.into_iter().find(|property| property.word() == of)
 }

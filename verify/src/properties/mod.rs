@@ -206,7 +206,7 @@ pub fn told(property: &str, failure: &Failure, fails: &dyn Fn(&Case) -> bool) ->
     // As it was drawn, the picture shows more than its one pixel will.
     let drawn = Case { why: failure.message.clone(), ..(*failure.case).clone() };
     let drawn = keep(&drawn, &folder(), &format!("{name}-as-drawn"));
-    let small = Case { expected: Verdict::Undecidable, why: failure.message.clone(), ..small };
+    let small = Case { expected: small.asked.promise().worst(), why: failure.message.clone(), ..small };
     let kept = match drawn.and_then(|_| keep(&small, &folder(), &name)) {
         Ok(kept) => format!("{}\n\nAgain: {}", kept.account, kept.command),
         Err(error) => format!("The case was not kept: {error}."),

@@ -22,7 +22,7 @@ use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::scenes::read::Loaded;
-use verify::subject::{Grid, NAIVE, NamedPlan, Promise, Subject};
+use verify::subject::{Grid, NAIVE, NamedPlan, Subject};
 use verify::verdict::Verdict;
 
 pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
@@ -134,18 +134,10 @@ fn keep(
         });
         drop(tick);
         // The file is what will be judged from now on, and is to be kept as a promise, not as a fault.
-        let case = Case { expected: expected(&smaller.asked.promise()), ..smaller };
+        let case = Case { expected: smaller.asked.promise().worst(), ..smaller };
         kept.push((subject.name().into(), case::folder::keep(&case, folder, subject.name())?));
     }
     Ok(())
-}
-
-/// The verdict on who keeps a promise.
-pub(crate) fn expected(promise: &Promise) -> Verdict {
-    match promise {
-        Promise::Exact => Verdict::Equal,
-        Promise::Rounded(_) | Promise::EqualToNaive(_) => Verdict::WithinBound,
-    }
 }
 
 /// A live view of a frame, if there is a module for one.
