@@ -393,3 +393,24 @@ fn the_page_and_the_plans_beside_it_are_true() {
         assert!(read.is_ok_and(|status| status.success()), "{script}");
     }
 }
+
+/// The chart of the hunt in README is that of its text.
+#[test]
+fn the_hunts_chart_shows_its_counts() {
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/campaigns");
+    let read = |name: &str| std::fs::read_to_string(docs.join(name)).expect("it is there");
+    let (text, chart) = (read("hunt.txt"), read("hunt.svg"));
+    let words: Vec<&str> = chart.split("</text>").filter_map(|part| Some(part.rsplit_once('>')?.1)).collect();
+    let mut seen = 0;
+    for line in text.lines() {
+        let Some((count, what)) = line.trim_start().split_once("  ") else { continue };
+        // Not the rows of histograms.
+        if let Some(at) = words.iter().position(|word| *word == what).filter(|_| what.contains(": ")) {
+            assert_eq!(words[at + 1], count, "{what}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 30, "only {seen} bars were compared");
+    let failures = words.iter().position(|word| *word == "different failures").expect("it is told");
+    assert_eq!(words[failures + 1] == "0", !text.contains("cgt replay"), "failures");
+}
