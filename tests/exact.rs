@@ -153,3 +153,47 @@ fn the_filter_needs_its_bound_far_away() {
     eprintln!("CGT_SEED={seed}: {cases} rays, {hits} hits, f64 differs in {differ}");
     assert!(hits > cases / 10 && hits < cases * 9 / 10 && differ > 20, "too little was at stake");
 }
+
+/// Rays that graze a sphere from within 10⁻¹³ radii of its surface, at any size: eye − centre is as long as the radius there, and the bound must count both.
+#[test]
+fn the_filter_needs_its_bound_at_a_surface() {
+    let (seed, cases) = (seed(), count("CGT_SURFACE_CASES", 100_000));
+    let each = (0..cases).into_par_iter().map(|i| {
+        let mut rng = generator(seed, i);
+        let scale = f32::from(rng.random_range(1..1000u16)) * 2f32.powi(rng.random_range(-40..40));
+        // With the centre c = (3, 4, g) and d = (-4, 3, 1), D is zero at 52 c·eye = 25 g², but for higher powers of g.
+        let g = 10f64.powf(rng.random_range(-8.5..-6.5)) * if rng.random() { 1.0 } else { -1.0 };
+        let inward = g * g * rng.random_range(0.40..0.56) / 25.0;
+        #[allow(clippy::cast_possible_truncation, reason = "made in f64, rounded once")]
+        let scaled = |v: [f64; 3]| v.map(|x| x as f32 * scale);
+        let sphere = Sphere { center: scaled([3.0, 4.0, g]), radius: 5.0 * scale, color: [9; 3] };
+        let ray = Ray { eye: scaled([3.0 * inward, 4.0 * inward, 0.0]), dir: [-4.0, 3.0, 1.0] };
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("a sphere");
+        let trace = |arithmetic| Tracer::new(arithmetic).trace(&ray, &scene);
+        let (exact, unfiltered) = (trace(Arithmetic::Exact), trace(Arithmetic::ExactUnfiltered));
+        assert_eq!(
+            exact, unfiltered,
+            "filtered, unfiltered; case {i} of CGT_SEED={seed}: {ray:?}, {scene:?}"
+        );
+        [u64::from(exact.is_some()), u64::from(exact.is_some() != trace(Arithmetic::F64).is_some())]
+    });
+    let [hits, differ] = each.reduce(|| [0; 2], |x, y| [x[0] + y[0], x[1] + y[1]]);
+    eprintln!("CGT_SEED={seed}: {cases} rays, {hits} hits, f64 differs in {differ}");
+    assert!(hits > cases / 10 && hits < cases * 9 / 10 && differ > cases / 100, "too little was at stake");
+}
+
+/// Where no decision is close the filters decide, and integers are hardly asked.
+#[test]
+fn integers_are_hardly_asked_where_nothing_is_close() {
+    let seed = seed();
+    let loaded =
+        Source::parse(&format!("uniform:300:{seed}")).and_then(|source| source.load()).expect("generated");
+    let size = Some(Size::new(320, 180).expect("small"));
+    let camera = Framing { size, ..Framing::default() }.camera(&loaded.animation).expect("in view");
+    let rendering =
+        Tracer::new(Arithmetic::Exact).render(&loaded.animation.frames()[0], &camera).expect("small");
+    let hits = rendering.image.ids.iter().filter(|&&id| id != MISS).count();
+    assert!(hits > 10_000, "CGT_SEED={seed}: {hits} pixels hit, nothing is at stake");
+    let Undecided { hits, orders, roundings } = rendering.undecided;
+    assert!(hits + orders + roundings < 20, "CGT_SEED={seed}: {:?} of 57,600 rays", rendering.undecided);
+}

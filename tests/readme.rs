@@ -252,6 +252,27 @@ fn anchor(line: &str) -> Option<String> {
     Some(heading.chars().filter(|c| c.is_alphanumeric() || *c == '-').collect())
 }
 
+/// The piece of Rust is the one that `cargo test --doc` runs.
+#[test]
+fn the_example_in_rust_is_one_that_runs() {
+    let text = readme();
+    let (_, rest) = text.split_once("```rust\n").expect("there is a piece of Rust");
+    let (shown, rest) = rest.split_once("```\n").expect("and its end");
+    assert!(!rest.contains("```rust"), "there is one");
+    let path = root().join("optimized/src/lib.rs");
+    let source = std::fs::read_to_string(path).expect("it is there");
+    let run: Vec<&str> = source
+        .lines()
+        .skip_while(|line| *line != "/// ```")
+        .skip(1)
+        .take_while(|line| *line != "/// ```")
+        .filter_map(|line| line.strip_prefix("///"))
+        .map(|line| line.strip_prefix(' ').unwrap_or(line))
+        .filter(|line| !line.starts_with("# "))
+        .collect();
+    assert_eq!(shown.lines().collect::<Vec<_>>(), run, "README shows `optimized::Tracer`'s example");
+}
+
 #[test]
 fn links_lead_somewhere() {
     let text = readme();

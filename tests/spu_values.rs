@@ -372,6 +372,8 @@ fn interpolation_stays_above_one_for_all_entries() {
     let lowest = lowest.min().expect("96 entries");
     eprintln!("{} lines of 2^19 values, the lowest 1 + {} 2^-32", entries.len(), lowest - (1 << 32));
     assert_eq!(lowest, (1 << 32) + 131);
+    // Of a line that falls below 1, as no entry's does, the fraction's bits stay as they are.
+    assert_eq!(Spu(0xa5f8_0001).fi(Spu(0xc200_0001)), Spu(0xc27f_ffff));
 }
 
 /// w x against 1, and w² x against 1, for every fraction, of either parity of the exponent.

@@ -36,12 +36,6 @@ impl Interval {
     fn outward(lo: f64, hi: f64) -> Self {
         Self { lo: lo.next_down(), hi: hi.next_up() }
     }
-
-    fn hull(values: [f64; 4]) -> Self {
-        let lo = values.into_iter().fold(f64::INFINITY, f64::min);
-        let hi = values.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        Self::outward(lo, hi)
-    }
 }
 
 impl Add for Interval {
@@ -73,17 +67,20 @@ impl Mul for Interval {
 
     fn mul(self, other: Self) -> Self {
         let (x, y) = (self, other);
-        Self::hull([x.lo * y.lo, x.lo * y.hi, x.hi * y.lo, x.hi * y.hi])
+        let ends = [x.lo * y.lo, x.lo * y.hi, x.hi * y.lo, x.hi * y.hi];
+        Self::outward(
+            ends.into_iter().fold(f64::INFINITY, f64::min),
+            ends.into_iter().fold(f64::NEG_INFINITY, f64::max),
+        )
     }
 }
 
 impl Div for Interval {
     type Output = Self;
 
-    /// The divisor must not hold zero.
+    /// For a divisor and a true quotient above zero: where the dividend's lower end is below zero, so is the quotient's.
     fn div(self, other: Self) -> Self {
-        debug_assert!(other.is_positive() || other.is_negative(), "division by {other:?}");
-        let (x, y) = (self, other);
-        Self::hull([x.lo / y.lo, x.lo / y.hi, x.hi / y.lo, x.hi / y.hi])
+        debug_assert!(other.is_positive(), "division by {other:?}");
+        Self::outward(self.lo / other.hi, self.hi / other.lo)
     }
 }

@@ -58,10 +58,7 @@ impl Root {
         let y = match (self.sigma, other.sigma) {
             (Ordering::Less, Ordering::Less) => other.discriminant.cmp(&self.discriminant),
             (Ordering::Greater, Ordering::Greater) => self.discriminant.cmp(&other.discriminant),
-            (sigma, _) if self.discriminant == IBig::ZERO && other.discriminant == IBig::ZERO => {
-                debug_assert_ne!(sigma, Ordering::Equal);
-                Ordering::Equal
-            }
+            // With σ = +1, D is above zero: q < 0, or q = 0 and b < 0.
             (sigma, _) => sigma,
         };
         let same = if self.sigma == other.sigma { Ordering::Greater } else { Ordering::Less };
@@ -71,11 +68,11 @@ impl Root {
     }
 
     /// The nearest f32, ties to even: a search over bit patterns, whose order for positive f32 is that of
-    /// their values, for the largest f32 not above t; then the middle between it and the next decides. The
-    /// pattern of +∞ stands for 2¹²⁸.
+    /// their values, for the largest finite f32 not above t; then the middle between it and the next decides.
+    /// The pattern of +∞ stands for 2¹²⁸.
     pub(crate) fn to_f32(&self) -> f32 {
         let infinity = f32::INFINITY.to_bits();
-        let (mut below, mut above) = (0, infinity + 1);
+        let (mut below, mut above) = (0, infinity);
         while above - below > 1 {
             let middle = below + (above - below) / 2;
             if self.cmp_scaled(&(integer_of_bits(middle) * 2)) == Ordering::Less {
@@ -83,9 +80,6 @@ impl Root {
             } else {
                 below = middle;
             }
-        }
-        if below == infinity {
-            return f32::INFINITY;
         }
         let middle = integer_of_bits(below) + integer_of_bits(below + 1);
         let bits = match self.cmp_scaled(&middle) {
@@ -99,8 +93,7 @@ impl Root {
     /// An interval that holds t, of two f32 steps.
     pub(crate) fn to_interval(&self) -> Interval {
         let t = self.to_f32();
-        let below = if t > 0.0 { t.next_down() } else { 0.0 };
-        Interval { lo: f64::from(below), hi: f64::from(t.next_up()) }
+        Interval { lo: f64::from(t.next_down()), hi: f64::from(t.next_up()) }
     }
 
     /// Compares t with m / 2¹⁵⁰: the sign of (p 2¹⁵⁰ − a m) + σ √(D 2³⁰⁰).

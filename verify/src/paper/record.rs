@@ -59,24 +59,27 @@ impl Record {
         self.claims.iter().filter(|claim| claim.verdict == standing).count()
     }
 
-    /// The table in Markdown, as it stands in README.
+    /// How many claims have which verdict, and the table, folded, in Markdown, as both stand in README.
     #[must_use]
     pub fn markdown(&self) -> String {
-        let mut table = String::from(
-            "| the paper claims | verdict | evidence | figure | smallest counterexample | how to see it |\n|---|---|---|---|---|---|\n",
+        let tally: Vec<String> =
+            Standing::ALL.map(|standing| format!("{} {}", self.count(standing), standing.word())).into();
+        let mut text = format!(
+            "Of {} claims {}.\n\n<details><summary>All of them</summary>\n\n\
+             | the paper claims | verdict | evidence | figure | smallest counterexample | how to see it |\n|---|---|---|---|---|---|\n",
+            self.claims.len(),
+            tally.join(", ")
         );
         for claim in &self.claims {
             let PaperClaim { statement, verdict, evidence, figure, counterexample, how, .. } = claim;
             let against = counterexample.as_deref().unwrap_or("–");
             let how = if how.starts_with("cargo") { format!("`{how}`") } else { how.clone() };
-            table += &format!(
+            text += &format!(
                 "| {statement} | {} | {} | {figure} | {against} | {how} |\n",
                 verdict.word(),
                 evidence.word()
             );
         }
-        let tally: Vec<String> =
-            Standing::ALL.map(|standing| format!("{} {}", self.count(standing), standing.word())).into();
-        table + &format!("\nOf {} claims {}.\n", self.claims.len(), tally.join(", "))
+        text + "\n</details>\n"
     }
 }
