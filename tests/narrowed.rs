@@ -74,6 +74,45 @@ fn what_is_seen_lies_where_it_may_be() {
     assert!(seen > 100_000 && close > 500, "{seen} pixels, {close} of them close");
 }
 
+/// A ball near the eye, on every side of the middle: from where to where it may be seen, worked out by hand for a camera that looks along an axis.
+#[test]
+fn a_ball_near_the_eye_may_be_seen_as_far_as_its_box() {
+    let (step, half) = (1.0f32 / 64.0, 32.0);
+    let camera = Camera::new(
+        [0.0; 3],
+        [-half * step, half * step, -1.0],
+        [step, 0.0, 0.0],
+        [0.0, -step, 0.0],
+        Size::new(64, 64).expect("a size"),
+    );
+    let view = View::new(&camera.expect("a camera")).expect("a plain one");
+    let (depth, radius) = (1.25f32, 1.0f32);
+    for x in [-3.0f32, -1.5, -0.25, 0.0, 0.25, 1.5, 3.0] {
+        for y in [-2.0f32, 0.5, 2.0] {
+            let range =
+                view.pixels(&Sphere { center: [x, y, -depth], radius, color: [9; 3] }).expect("ahead");
+            for (middle, [lo, hi]) in [x, -y].into_iter().zip(range) {
+                // The nearest end of a side that is left of the middle is the farther one of a side right of it.
+                let edge = |place: f32, outward: bool| {
+                    let along = if outward { depth - radius } else { depth + radius };
+                    f64::from(half + place / along / step)
+                };
+                let due = [
+                    edge(middle - radius, middle < radius) - SURPLUS,
+                    edge(middle + radius, middle > -radius) + SURPLUS,
+                ];
+                assert!(
+                    (lo - due[0]).abs() < 0.01 && (hi - due[1]).abs() < 0.01,
+                    "({x}, {y}): [{lo}, {hi}], {due:?} are due"
+                );
+            }
+        }
+    }
+    // Behind the eye it is seen nowhere, and about the eye anywhere.
+    let at = |z: f32| view.pixels(&Sphere { center: [0.0, 0.0, z], radius, color: [9; 3] });
+    assert_eq!((at(1.25), at(0.5), at(-0.5)), (Some([[f64::NEG_INFINITY; 2]; 2]), None, None));
+}
+
 #[test]
 fn eyes_within_and_behind_come_out_the_same() {
     let within = Framing { eye: Some([0.5, 0.5, 0.5]), target: Some([2.0, 0.7, 0.4]), ..size(96, 54) };

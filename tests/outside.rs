@@ -4,7 +4,7 @@
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use reference::{Arithmetic, Ray, Tracer};
 use verify::judge::band::{Band, band};
-use verify::judge::outside::{Hearing, Stand, Testimony, Witness, hear};
+use verify::judge::outside::{Adjudicated, Hearing, Stand, Testimony, Witness, hear};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::subject::{Rounding, SubjectError};
@@ -81,7 +81,10 @@ fn sized(width: u32, height: u32) -> Framing {
 fn a_sound_witness_and_the_reference_agree() {
     let hearing = Bench::random().hear(|_| ());
     assert_eq!((hearing.failures(), hearing.verdict()), (0, Verdict::WithinBound), "{hearing:?}");
-    assert_eq!(hearing.rays, 96 * 64);
+    assert_eq!(
+        (hearing.witness.as_str(), hearing.mode.as_str(), hearing.rays),
+        ("perpendicular", "plain", 96 * 64)
+    );
     assert!(hearing.hits > 500 && hearing.not_stated == [0, 0]);
     assert_eq!(hearing.t_ulp.iter().sum::<u64>(), hearing.hits, "a t was left out of the histogram");
     assert!(hearing.t_ulp[0] < hearing.hits && hearing.t_ulp_max > 0, "f32 is never off?");
@@ -189,4 +192,143 @@ fn who_sees_through_a_sphere_is_wrong() {
         far.ids.iter().zip(&bench.truth.ids).filter(|(far, id)| **far == 0 && **id == 0).count() as u64;
     assert_eq!(hearing.outside + hearing.beyond, through, "{hearing:?}");
     assert!(through > 40 && hearing.verdict() == Verdict::Wrong, "{hearing:?}");
+}
+
+/// Each ray is counted once in each of its places, and what is a failure is named.
+#[test]
+fn every_count_rises_where_it_should() {
+    let ball = |z: f32| Sphere { center: [0.0, 0.0, z], radius: 1.0, color: [9; 3] };
+    let scene = Scene::new(vec![ball(-5.0), ball(-10.0), ball(-5.0)], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let ray = Ray { eye: [0.0; 3], dir: [0.0, 0.0, -1.0] };
+    let stand = |miss: bool, spheres: &[u32]| {
+        let range = |id: u32| (id, if id == 1 { [8.9, 9.1] } else { [3.9, 4.1] });
+        Stand { miss, spheres: spheres.iter().map(|id| range(*id)).collect() }
+    };
+    let (miss, near, far, twin) = ((MISS, f32::INFINITY), (0, 4.0), (1, 9.0), (2, 4.0));
+    let exact = Hearing { rays: 1, hits: 1, t_ulp: one_at(0), ..Hearing::default() };
+    let both_open = Hearing { rays: 1, hits: 1, in_band: 1, ..Hearing::default() };
+    let blank = Hearing { rays: 1, ..Hearing::default() };
+    let decided = Some(stand(false, &[0]));
+    let open = Some(stand(true, &[0, 1, 2]));
+    let steps = |n: u32| (0, f32::from_bits(4f32.to_bits() + n));
+    let rows: [(Option<Stand>, [(u32, f32); 2], Hearing, Option<&str>); 17] = [
+        (None, [near, near], Hearing { not_stated: [1, 0], ..blank.clone() }, None),
+        (None, [near, far], Hearing { not_stated: [1, 1], ..blank.clone() }, None),
+        (decided.clone(), [near, near], exact.clone(), None),
+        (Some(stand(true, &[])), [miss, miss], blank.clone(), None),
+        (open.clone(), [miss, miss], Hearing { in_band: 1, ..blank.clone() }, None),
+        (
+            decided.clone(),
+            [near, steps(3)],
+            Hearing { t_ulp: one_at(3), t_ulp_max: 3, ..exact.clone() },
+            None,
+        ),
+        (
+            decided.clone(),
+            [steps(70_000), near],
+            Hearing { t_ulp: one_at(11), t_ulp_max: 70_000, ..exact.clone() },
+            None,
+        ),
+        (decided.clone(), [near, miss], Hearing { outside: 1, ..blank.clone() }, Some("the witness's id")),
+        (decided.clone(), [miss, near], Hearing { outside: 1, ..blank.clone() }, Some("the reference's id")),
+        (
+            decided.clone(),
+            [near, far],
+            Hearing { outside: 1, hits: 1, ..blank.clone() },
+            Some("the witness's id"),
+        ),
+        (
+            Some(stand(false, &[0, 2])),
+            [near, far],
+            Hearing { beyond: 1, ..both_open.clone() },
+            Some("the witness's id"),
+        ),
+        (
+            Some(stand(true, &[0])),
+            [far, near],
+            Hearing { beyond: 1, ..both_open.clone() },
+            Some("the reference's id"),
+        ),
+        (decided.clone(), [near, (0, 4.2)], Hearing { wrong_t: 1, hits: 1, ..blank.clone() }, Some("t")),
+        (decided, [(0, 3.8), near], Hearing { wrong_t: 1, hits: 1, ..blank }, Some("t")),
+        (open.clone(), [near, far], one_inside(&both_open, |inside| &mut inside.reference), None),
+        (open.clone(), [near, twin], one_inside(&both_open, |inside| &mut inside.ties), None),
+        (
+            open.clone(),
+            [far, near],
+            one_inside(&both_open, |inside| &mut inside.witness),
+            Some("integers say that the reference is wrong"),
+        ),
+    ];
+    for (stand, answers, due, failure) in rows {
+        let mut hearing = Hearing::default();
+        let said = hearing.count(&scene, &ray, stand.as_ref(), answers);
+        assert_eq!((&hearing, said), (&due, failure), "{stand:?}, {answers:?}");
+        assert_eq!(hearing.failures(), u64::from(failure.is_some()), "{hearing:?}");
+    }
+    let mut hearing = Hearing::default();
+    let said = hearing.count(&scene, &ray, open.as_ref(), [far, twin]);
+    assert_eq!(
+        (hearing, said),
+        (one_inside(&both_open, |inside| &mut inside.neither), Some("integers say that both are wrong"))
+    );
+}
+
+fn one_at(class: usize) -> [u64; 12] {
+    std::array::from_fn(|i| u64::from(i == class))
+}
+
+fn one_inside(hearing: &Hearing, which: fn(&mut Adjudicated) -> &mut u64) -> Hearing {
+    let mut hearing = hearing.clone();
+    *which(&mut hearing.inside) += 1;
+    hearing
+}
+
+/// Sums take every count, and the first failure of the first that has one.
+#[test]
+fn hearings_add_up() {
+    let made = |k: u64, first: Option<&str>| Hearing {
+        witness: "w".into(),
+        mode: "m".into(),
+        rays: k,
+        hits: 2 * k,
+        not_stated: [3 * k, 4 * k],
+        in_band: 5 * k,
+        outside: 6 * k,
+        beyond: 7 * k,
+        inside: Adjudicated { reference: 8 * k, witness: 9 * k, neither: 10 * k, ties: 11 * k },
+        wrong_t: 12 * k,
+        t_ulp: std::array::from_fn(|i| (13 + i as u64) * k),
+        t_ulp_max: 30 * k,
+        first: first.map(str::to_owned),
+    };
+    let (one, ten) = (made(1, None), made(10, Some("here")));
+    for (sum, first) in [(one.clone().and(&ten), "here"), (ten.clone().and(&made(1, Some("there"))), "here")]
+    {
+        let due = Hearing { t_ulp_max: 300, ..made(11, Some(first)) };
+        assert_eq!(sum, due);
+    }
+    assert_eq!(one.failures(), 6 + 7 + 12 + 9 + 10);
+    let word = |change: fn(&mut Hearing)| {
+        let mut hearing = Hearing { rays: 5, ..Hearing::default() };
+        change(&mut hearing);
+        hearing.verdict()
+    };
+    assert_eq!(word(|_| ()), Verdict::WithinBound);
+    assert_eq!(word(|hearing| hearing.not_stated[0] = 4), Verdict::Undecidable);
+    assert_eq!(word(|hearing| hearing.not_stated[0] = 5), Verdict::NotJudged);
+    let failures: [fn(&mut Hearing); 5] = [
+        |hearing| hearing.outside = 1,
+        |hearing| hearing.beyond = 1,
+        |hearing| hearing.wrong_t = 1,
+        |hearing| hearing.inside.witness = 1,
+        |hearing| (hearing.inside.neither, hearing.not_stated[0]) = (1, 4),
+    ];
+    for wrong in failures {
+        assert_eq!(word(wrong), Verdict::Wrong);
+    }
+    assert_eq!(
+        word(|hearing| (hearing.inside.reference, hearing.inside.ties) = (3, 2)),
+        Verdict::WithinBound
+    );
 }

@@ -116,20 +116,16 @@ impl Geometry {
     }
 
     /// Whether f32 neither overflows nor loses anything that counts to underflow: the largest product a F² (and
-    /// b², which is no larger) stays below 2¹²⁶; r², a r² and r²/a stay above `small`, and so does a;
-    /// 1/a and (F² + r²)/a, which bounds t² and what is under the root, stay below 2¹²⁶ too.
+    /// b², which is no larger) stays below 2¹²⁶, and so does (F² + r²)/a, which bounds t² and what is under the root;
+    /// a r², r²/a and a stay above `small`. Then F² + r², a and 1/a stay below 2¹²⁶ too, and r² above `small`.
     fn in_range(&self, small: f64) -> bool {
         let large = 2f64.powi(126);
         let square = self.ff + self.rr;
-        square < large
-            && self.a < large
-            && self.a * square < large
-            && self.rr > small
-            && self.a > small
+        self.a * square < large
+            && square < large * self.a
             && self.a * self.rr > small
             && self.rr > small * self.a
-            && 1.0 < large * self.a
-            && square < large * self.a
+            && self.a > small
     }
 
     fn textbook(&self, u: f64) -> Band {
