@@ -62,6 +62,8 @@ fn sound_pictures_pass() {
         for promise in [Promise::Rounded(rounding), Promise::EqualToNaive(rounding)] {
             let judgement = bench.judge(&image, promise, Some(&image));
             assert!(matches!(judgement.verdict, Verdict::Equal | Verdict::WithinBound), "{judgement:?}");
+            let of_naive = judgement.because.starts_with("Bit for bit the naive picture. ");
+            assert_eq!(of_naive, promise == Promise::EqualToNaive(rounding), "{judgement:?}");
         }
     }
     let f32 = bench.naive(Rounding::TextbookF32);

@@ -211,7 +211,8 @@ fn every_count_rises_where_it_should() {
     let decided = Some(stand(false, &[0]));
     let open = Some(stand(true, &[0, 1, 2]));
     let steps = |n: u32| (0, f32::from_bits(4f32.to_bits() + n));
-    let rows: [(Option<Stand>, [(u32, f32); 2], Hearing, Option<&str>); 17] = [
+    type Row = (Option<Stand>, [(u32, f32); 2], Hearing, Option<&'static str>);
+    let rows: [Row; 17] = [
         (None, [near, near], Hearing { not_stated: [1, 0], ..blank.clone() }, None),
         (None, [near, far], Hearing { not_stated: [1, 1], ..blank.clone() }, None),
         (decided.clone(), [near, near], exact.clone(), None),

@@ -4,6 +4,7 @@
 //! In: a scene, a camera, subjects. Out: data for the report and its pictures. A subject that gives no picture
 //! is reported as not judged; only a truth that cannot be had is an error.
 
+use crate::case::Asked;
 use crate::judge::judge;
 use crate::judge::outside::{Witness, hear};
 use crate::picture::PictureError;
@@ -104,7 +105,7 @@ pub fn run(
                     Some(_) => pictures.add(&truth, &image)?,
                     None => pictures.skip(),
                 }
-                naive.keep(subject.promise(), subject.name(), image);
+                naive.keep(*subject, threads, image);
             }
             Err(error) => {
                 report.because = format!("Gave no picture: {error}.");
@@ -164,10 +165,9 @@ fn blank(subject: &dyn Subject) -> SubjectReport {
 struct NaivePictures(Vec<(Rounding, Image)>);
 
 impl NaivePictures {
-    fn keep(&mut self, promise: Promise, name: &str, image: Image) {
-        if let Promise::Rounded(rounding) = promise
-            && Naive(rounding).name() == name
-        {
+    fn keep(&mut self, subject: &dyn Subject, threads: usize, image: Image) {
+        // Not by its name, which anyone may take.
+        if let Some(Asked::Naive(Naive(rounding))) = subject.asked(threads) {
             self.0.push((rounding, image));
         }
     }

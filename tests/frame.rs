@@ -1,0 +1,156 @@
+//! Does what is told of a frame say what was rendered: the first wrong pixel, counts, speed, and whose picture a twin is?
+
+use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
+use optimized::Level;
+use reference::{Arithmetic, Ray, Tracer};
+use verify::report::SceneReport;
+use verify::run::{Frame, run};
+use verify::scenes::catalogue::Source;
+use verify::scenes::frame::Framing;
+use verify::subject::{Grid, Naive, NamedPlan, Promise, Rendered, Rounding, Subject, SubjectError};
+use verify::verdict::Verdict;
+
+/// The exact picture with something done to it, under any name and promise.
+struct Spoilt {
+    name: &'static str,
+    promise: Promise,
+    spoil: fn(&mut Image),
+}
+
+impl Subject for Spoilt {
+    fn name(&self) -> &str {
+        self.name
+    }
+
+    fn description(&self) -> &str {
+        "made up"
+    }
+
+    fn promise(&self) -> Promise {
+        self.promise
+    }
+
+    fn render(
+        &self,
+        scene: &Scene,
+        camera: &Camera,
+        _: usize,
+        _: &(dyn Fn() + Sync),
+    ) -> Result<Rendered, SubjectError> {
+        let mut image = Tracer::new(Arithmetic::Exact).render(scene, camera)?.image;
+        (self.spoil)(&mut image);
+        Ok(Rendered { image, notes: Vec::new(), took: None })
+    }
+}
+
+const WIDTH: usize = 48;
+
+fn made() -> (Scene, Camera) {
+    let loaded = Source::parse("uniform:60:5").and_then(|source| source.load()).expect("generated");
+    let size = Some(Size::new(48, 32).expect("small"));
+    let camera = Framing { size, ..Framing::default() }.camera(&loaded.animation).expect("in view");
+    (loaded.animation.frames()[0].clone(), camera)
+}
+
+fn told(scene: &Scene, camera: &Camera, replay: &str, subjects: &[&dyn Subject]) -> SceneReport {
+    let frame = Frame {
+        name: "a",
+        description: "b",
+        provenance: "c",
+        scene,
+        camera,
+        frame: [0, 1],
+        warnings: &[],
+        replay,
+    };
+    run(&frame, subjects, &[], 1, &|_, _| Box::new(|| ())).expect("it is judged").0
+}
+
+#[test]
+fn the_first_wrong_pixel_is_told_in_full() {
+    let (scene, camera) = made();
+    let truth = Tracer::new(Arithmetic::Exact).render(&scene, &camera).expect("small").image;
+    // Its place is told by the truth, so that it hits; no row or column is as long as the other.
+    let at = (10 * WIDTH..truth.ids.len())
+        .find(|i| truth.ids[*i] != MISS && i % WIDTH > 3)
+        .expect("something is seen");
+    fn spoil(image: &mut Image) {
+        let at = (10 * WIDTH..image.ids.len())
+            .find(|i| image.ids[*i] != MISS && i % WIDTH > 3)
+            .unwrap_or_default();
+        (image.ids[at], image.t[at]) = (MISS, f32::INFINITY);
+        (image.ids[at + 60], image.t[at + 60]) = (7, 1.5);
+    }
+    let spoilt = Spoilt { name: "spoilt", promise: Promise::Exact, spoil };
+    let report = told(&scene, &camera, "cgt verify a", &[&spoilt]);
+    let ray = Ray::of_pixel(&camera, (at % WIDTH) as u32, (at / WIDTH) as u32);
+    let bits = |x: f32| format!("{x:?} (0x{:08x})", x.to_bits());
+    let three = |v: [f32; 3]| format!("{}, {}, {}", bits(v[0]), bits(v[1]), bits(v[2]));
+    let [r, g, b, _] = truth.rgba[at];
+    let due = [
+        format!("pixel      ({}, {})", at % WIDTH, at / WIDTH),
+        format!("eye        {}", three(ray.eye)),
+        format!("direction  {}", three(ray.dir)),
+        format!("truth      sphere {} at t = {}, colour [{r}, {g}, {b}]", truth.ids[at], bits(truth.t[at])),
+        "subject    a miss".into(),
+        "replay     cgt verify a --subject spoilt".into(),
+    ];
+    let subject = &report.subjects[0];
+    assert_eq!(subject.verdict, Verdict::Wrong);
+    assert_eq!(subject.first_wrong.as_deref(), Some(due.join("\n").as_str()));
+    let unasked = told(&scene, &camera, "", &[&spoilt]);
+    assert_eq!(unasked.subjects[0].first_wrong.as_deref(), Some(due[..5].join("\n").as_str()));
+}
+
+#[test]
+fn what_was_asked_and_how_fast_is_told() {
+    let (_, camera) = made();
+    let ball = |z: f32| Sphere { center: [0.5, 0.5, z], radius: 0.4, color: [90; 3] };
+    // Twins, so that integers are asked which comes first.
+    let scene = Scene::new(vec![ball(0.5), ball(0.5)], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let report = told(&scene, &camera, "", &[&Naive(Rounding::TextbookF64)]);
+    let undecided = Tracer::new(Arithmetic::Exact).render(&scene, &camera).expect("small").undecided;
+    let counts: Vec<(&str, u64)> = report.judge.counters.iter().map(|c| (c.name.as_str(), c.value)).collect();
+    let due = [
+        ("rays", 48 * 32),
+        ("hits that integers decided", undecided.hits),
+        ("orders of two roots that integers decided", undecided.orders),
+        ("roundings of t that integers decided", undecided.roundings),
+    ];
+    assert_eq!(counts, due);
+    assert!(undecided.orders > 20 && report.hits >= undecided.orders, "{undecided:?}");
+    let subject = &report.subjects[0];
+    let (seconds, speed) =
+        (subject.seconds.expect("it took time"), subject.rays_per_second.expect("it has a speed"));
+    assert!((seconds * speed / (48.0 * 32.0) - 1.0).abs() < 1e-9, "{seconds} s at {speed} a second");
+}
+
+/// Whoever is called as the naive tracer is, or comes before it, a promise to be equal to it is held against the naive tracer itself.
+#[test]
+fn a_twin_is_the_naive_tracers_own() {
+    let (scene, camera) = made();
+    let safe = Grid::new(NamedPlan::Safe, Level::best().expect("there is one"), false, None);
+    let Promise::EqualToNaive(rounding) = safe.promise() else {
+        panic!("safe promises to be a naive picture")
+    };
+    let naive = Naive(rounding);
+    let rounded = Promise::Rounded(rounding);
+    let namesake =
+        Spoilt { name: "naive-f32-perpendicular", promise: rounded, spoil: |image| image.ids.fill(3) };
+    assert_eq!(namesake.name, naive.name());
+    let other = Naive(Rounding::TextbookF32);
+    let before: [&[&dyn Subject]; 5] =
+        [&[], &[&naive], &[&other], &[&namesake], &[&other, &namesake, &naive]];
+    for before in before {
+        let subjects = [before, &[&safe]].concat();
+        let report = told(&scene, &camera, "", &subjects);
+        let last = report.subjects.last().expect("it is told of");
+        let names: Vec<_> = before.iter().map(|subject| subject.name()).collect();
+        assert_eq!(last.name, safe.name());
+        assert!(
+            [Verdict::Equal, Verdict::WithinBound].contains(&last.verdict),
+            "after {names:?}: {}",
+            last.because
+        );
+    }
+}
