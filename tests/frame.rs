@@ -66,18 +66,20 @@ fn told(scene: &Scene, camera: &Camera, replay: &str, subjects: &[&dyn Subject])
     run(&frame, subjects, &[], 1, &|_, _| Box::new(|| ())).expect("it is judged").0
 }
 
+/// The first pixel that hits from row 10 and column 4 on, so that neither is 0 and none is the other.
+fn first_seen(image: &Image) -> usize {
+    let seen = |i: &usize| image.ids[*i] != MISS && i % WIDTH > 3;
+    (10 * WIDTH..image.ids.len()).find(seen).expect("something is seen")
+}
+
 #[test]
 fn the_first_wrong_pixel_is_told_in_full() {
     let (scene, camera) = made();
     let truth = Tracer::new(Arithmetic::Exact).render(&scene, &camera).expect("small").image;
-    // Its place is told by the truth, so that it hits; no row or column is as long as the other.
-    let at = (10 * WIDTH..truth.ids.len())
-        .find(|i| truth.ids[*i] != MISS && i % WIDTH > 3)
-        .expect("something is seen");
+    let at = first_seen(&truth);
+    assert_ne!(at % WIDTH, at / WIDTH);
     fn spoil(image: &mut Image) {
-        let at = (10 * WIDTH..image.ids.len())
-            .find(|i| image.ids[*i] != MISS && i % WIDTH > 3)
-            .unwrap_or_default();
+        let at = first_seen(image);
         (image.ids[at], image.t[at]) = (MISS, f32::INFINITY);
         (image.ids[at + 60], image.t[at + 60]) = (7, 1.5);
     }
