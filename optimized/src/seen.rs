@@ -514,13 +514,13 @@ impl<M: Machine, H: Hits<M>> Visitor<M> for Meeting<'_, M, H> {
     #[inline(always)]
     fn unfinished(&self, slice: usize) -> M::B {
         let m = self.m;
-        let (beyond, widen) = match self.margins {
-            Margins::None => (1.0, self.grid.widen),
-            Margins::Derived => (beyond(m.unit()), self.grid.widen * beyond(m.unit())),
+        let beyond = match self.margins {
+            Margins::None => 1.0,
+            Margins::Derived => beyond(m.unit()),
         };
         let reached = m.mul(self.hits.reached(m), m.splat(beyond));
         let end = m.splat(self.slices.far[slice]);
-        m.not(m.le(m.add(reached, m.splat(widen)), end))
+        m.not(m.le(m.add(reached, m.splat(self.grid.widen)), end))
     }
 }
 

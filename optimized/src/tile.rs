@@ -468,8 +468,8 @@ impl<M: Machine> Work<M> {
             }
         }
         let finished = round.all || {
-            let widen = look.grid.widen * beyond(m.unit());
-            let reached = m.add(m.mul(nearest.hi, m.splat(beyond(m.unit()))), m.splat(widen));
+            let along = m.mul(nearest.hi, m.splat(beyond(m.unit())));
+            let reached = m.add(along, m.splat(look.grid.widen));
             !m.any(m.not(m.le(reached, m.splat(round.end))), Site::Unfinished)
         };
         if !finished {

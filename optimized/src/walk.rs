@@ -17,7 +17,8 @@
 //! the slice of that hit's point P (the lemma of [`crate::margin`]). If for every ray the nearest hit so far lies, by
 //! A = t |d_X|, strictly before the end of the current slice, then so does any P with a smaller or equal t, and its
 //! slice has been visited. A is computed with two roundings and enlarged by 2⁻²⁰ to cover them and those of the
-//! slice's distance. If spheres are listed by centre, which is up to w from P, then P must lie w before the end.
+//! slice's distance. If spheres are listed by centre, which is up to w from P, then P must lie w before the end; w is as much
+//! larger than the largest reach ([`crate::grid::widen`]), so that their sum covers its own rounding too.
 
 use crate::frustum::Slices;
 use crate::machine::{Chore, Machine, Site, three};
