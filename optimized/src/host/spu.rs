@@ -56,20 +56,30 @@ fn cut_sum(x: f64, y: f64) -> u32 {
     cut(if error != 0.0 && (error < 0.0) != (sum < 0.0) { below } else { sum })
 }
 
+#[inline(always)]
+pub(super) fn add(x: u32, y: u32) -> u32 {
+    cut_sum(number(x), number(y))
+}
+
+#[inline(always)]
+pub(super) fn sub(x: u32, y: u32) -> u32 {
+    cut_sum(number(x), -number(y))
+}
+
 /// x y + z.
 #[inline(always)]
-fn fma(x: u32, y: u32, z: u32) -> u32 {
+pub(super) fn fma(x: u32, y: u32, z: u32) -> u32 {
     cut_sum(number(x) * number(y), number(z))
 }
 
 /// z − x y.
 #[inline(always)]
-fn fnms(x: u32, y: u32, z: u32) -> u32 {
+pub(super) fn fnms(x: u32, y: u32, z: u32) -> u32 {
     cut_sum(number(z), -(number(x) * number(y)))
 }
 
 #[inline(always)]
-fn mul(x: u32, y: u32) -> u32 {
+pub(super) fn mul(x: u32, y: u32) -> u32 {
     cut(number(x) * number(y))
 }
 
@@ -143,20 +153,6 @@ fn integer(x: [u32; LANES], f: impl Fn(f64) -> f64) -> [i32; LANES] {
     )
 }
 
-/// For those lanes that [`super::Truncating`] cannot be certain of.
-#[cfg(target_arch = "x86_64")]
-impl Spu {
-    /// x y + z of each lane.
-    pub(super) fn fma([x, y, z]: [[u32; LANES]; 3]) -> [u32; LANES] {
-        std::array::from_fn(|i| fma(x[i], y[i], z[i]))
-    }
-
-    /// z − x y of each lane.
-    pub(super) fn fnms([x, y, z]: [[u32; LANES]; 3]) -> [u32; LANES] {
-        std::array::from_fn(|i| fnms(x[i], y[i], z[i]))
-    }
-}
-
 impl Machine for Spu {
     type F = [u32; LANES];
     type I = [i32; LANES];
@@ -217,23 +213,11 @@ impl Machine for Spu {
     }
     #[inline(never)]
     fn add(self, x: Self::F, y: Self::F) -> Self::F {
-        each(
-            x,
-            y,
-            0,
-            #[inline(always)]
-            |x, y| cut_sum(number(x), number(y)),
-        )
+        each(x, y, 0, add)
     }
     #[inline(never)]
     fn sub(self, x: Self::F, y: Self::F) -> Self::F {
-        each(
-            x,
-            y,
-            0,
-            #[inline(always)]
-            |x, y| cut_sum(number(x), -number(y)),
-        )
+        each(x, y, 0, sub)
     }
     #[inline(never)]
     fn mul(self, x: Self::F, y: Self::F) -> Self::F {

@@ -5,7 +5,7 @@
 //! 754 has not, and the operation is done again by [`Spu`]. No control register is touched.
 #![allow(unsafe_code, reason = "intrinsics; each names why it may be called")]
 
-use super::spu::{Spu, UNIT};
+use super::spu::{self, Spu, UNIT};
 use crate::machine::{LANES, Machine, Site};
 use contract::spu::{FREST, FRSQEST};
 use fearless_simd::Avx512;
@@ -41,7 +41,7 @@ fn large(x: __m512i, limit: i32) -> __mmask16 {
 fn mended(
     operands: [__m512i; 3],
     operation: impl FnOnce([__m512; 3]) -> __m512,
-    again: fn([[u32; LANES]; 3]) -> [u32; LANES],
+    again: fn(u32, u32, u32) -> u32,
 ) -> __m512i {
     let [x, y, z] = operands;
     let [x, y, z] = [read(x), read(y), read(z)];
@@ -56,9 +56,9 @@ fn mended(
 
 #[cold]
 #[inline(never)]
-fn by_spu(operands: [__m512i; 3], again: fn([[u32; LANES]; 3]) -> [u32; LANES]) -> __m512i {
-    let [x, y, z] = operands;
-    vector(again([array(x), array(y), array(z)]))
+fn by_spu(operands: [__m512i; 3], again: fn(u32, u32, u32) -> u32) -> __m512i {
+    let [x, y, z] = operands.map(array);
+    vector(std::array::from_fn(|i| again(x[i], y[i], z[i])))
 }
 
 #[inline(always)]
@@ -93,7 +93,7 @@ impl Truncating {
             // SAFETY: see `Truncating`.
             #[inline(always)]
             |[x, y, z]| unsafe { _mm512_fmadd_round_ps::<TOWARDS_ZERO>(x, y, z) },
-            Spu::fma,
+            spu::fma,
         )
     }
 
@@ -104,7 +104,7 @@ impl Truncating {
             // SAFETY: see `Truncating`.
             #[inline(always)]
             |[x, y, z]| unsafe { _mm512_fnmadd_round_ps::<TOWARDS_ZERO>(x, y, z) },
-            Spu::fnms,
+            spu::fnms,
         )
     }
 
@@ -216,7 +216,7 @@ impl Machine for Truncating {
             // SAFETY: see `Truncating`.
             #[inline(always)]
             |[x, y, _]| unsafe { _mm512_add_round_ps::<TOWARDS_ZERO>(x, y) },
-            |[x, y, _]| Spu.add(x, y),
+            |x, y, _| spu::add(x, y),
         )
     }
     #[inline(always)]
@@ -226,7 +226,7 @@ impl Machine for Truncating {
             // SAFETY: see `Truncating`.
             #[inline(always)]
             |[x, y, _]| unsafe { _mm512_sub_round_ps::<TOWARDS_ZERO>(x, y) },
-            |[x, y, _]| Spu.sub(x, y),
+            |x, y, _| spu::sub(x, y),
         )
     }
     #[inline(always)]
@@ -236,7 +236,7 @@ impl Machine for Truncating {
             // SAFETY: see `Truncating`.
             #[inline(always)]
             |[x, y, _]| unsafe { _mm512_mul_round_ps::<TOWARDS_ZERO>(x, y) },
-            |[x, y, _]| Spu.mul(x, y),
+            |x, y, _| spu::mul(x, y),
         )
     }
     #[inline(always)]
