@@ -62,7 +62,7 @@ fn no_promise_is_broken_on_directed_scenes() {
         ("too large for eight corners", 200),
         ("scenes out of range", 15),
         ("rays that f32 left to f64", 2_000),
-        ("rays that f64 left to integers", 50),
+        ("rays that f64 left to integers", 1_000),
         ("t rounded by integers", 15),
         ("frames refused", 5),
         ("frames within the bound of rounding", 300),

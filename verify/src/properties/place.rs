@@ -97,7 +97,8 @@ fn camera(recipe: &Recipe) -> Option<Camera> {
     }
     let eye = [0, 1, 2].map(|i| single(at[i] - way[i]));
     let pixels = [f64::from(size[0]), f64::from(size[1])];
-    let step = scene * f64::from(width) / pixels[0].max(pixels[1]);
+    // Rounded, so that straight ahead the middle one of an odd number of columns has no part of `du` at all.
+    let step = f64::from(single(scene * f64::from(width) / pixels[0].max(pixels[1])));
     let (mut du, mut dv) = ([0.0; 3], [0.0; 3]);
     du[(axis + 1) % 3] = if mirrored { -step } else { step };
     dv[(axis + 2) % 3] = -step;
@@ -140,6 +141,12 @@ fn add(
             let Sphere { center, radius, .. } = spheres[usize::from(of) % spheres.len()];
             push(spheres, center, radius);
         }
+        Ball::Mirrored { of, axis } => {
+            let Sphere { mut center, radius, .. } = spheres[usize::from(of) % spheres.len()];
+            let axis = usize::from(axis);
+            center[axis] = 2.0 * camera.eye()[axis] - center[axis];
+            push(spheres, center, radius);
+        }
         Ball::Around { of, factor } => {
             let Sphere { center, radius, .. } = spheres[usize::from(of) % spheres.len()];
             push(spheres, center, radius * factor);
@@ -155,7 +162,11 @@ fn add(
         }
         Ball::OnEye { radius, axis, upper, ulps: off } => {
             let (mut center, radius, axis) = (camera.eye(), large(radius), usize::from(axis));
-            center[axis] = ulps(if upper { center[axis] + radius } else { center[axis] - radius }, off);
+            let eye = center[axis];
+            center[axis] = if upper { eye + radius } else { eye - radius };
+            // The radius that the rounded centre asks for, so that without ulp the eye is on it exactly.
+            let radius = (center[axis] - eye).abs();
+            center[axis] = ulps(center[axis], off);
             push(spheres, center, radius);
         }
         Ball::Behind { distance, radius } => {

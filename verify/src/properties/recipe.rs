@@ -34,6 +34,8 @@ pub enum Ball {
     },
     /// The same as an earlier one.
     Twin { of: u8 },
+    /// An earlier one mirrored in the plane through the eye at right angles to an axis: rays within that plane hit both at once.
+    Mirrored { of: u8, axis: u8 },
     /// Around the same centre as an earlier one, larger or smaller.
     Around { of: u8, factor: f32 },
     /// Touching an earlier one from outside, along an axis.
@@ -121,6 +123,7 @@ pub fn ball() -> impl Strategy<Value = Ball> {
                 at, radius, axes, turn, planes, upper, ulps
             }),
         1 => any::<u8>().prop_map(|of| Ball::Twin { of }),
+        2 => (any::<u8>(), 0u8..3).prop_map(|(of, axis)| Ball::Mirrored { of, axis }),
         1 => (any::<u8>(), 1u16..=30).prop_map(|(of, f)| Ball::Around { of, factor: f32::from(f) / 10.0 }),
         1 => (any::<u8>(), 0u8..3, any::<bool>()).prop_map(|(of, axis, upper)| Ball::Beside { of, axis, upper }),
         1 => (place(), radius()).prop_map(|(off, radius)| Ball::AroundEye { off, radius }),
