@@ -152,14 +152,25 @@ fn certified_is_exact_where_decisions_are_close() {
     assert!(rounded_by_integers > rays / 10_000, "{all:?}: hardly a t is close to a rounding boundary");
 }
 
-/// Outside the range for which the bound is derived f32 decides nothing.
+/// Outside the range for which the bound is derived f32 decides nothing, and within it something: up to 2⁴⁰ away, for radii from 2⁻⁴⁰ to 2⁴⁰.
 #[test]
 fn the_bound_knows_its_range() {
-    let (far, rule) = (2f32.powi(41), Rule::new(NEAREST));
-    for (farthest, radius) in [(far, 1.0), (1.0, 1.0 / far), (f32::INFINITY, 1.0), (1.0, far)] {
-        assert_eq!(rule.bound(farthest, radius), Bound::NONE, "{farthest:?}, {radius:?}");
+    let (limit, rule) = (2f32.powi(40), Rule::new(NEAREST));
+    let least = limit.recip();
+    for (farthest, radius) in
+        [(limit, 1.0), (1.0, limit), (1.0, least), (0.0, limit), (limit, least), (1e6, 1e-6)]
+    {
+        assert_ne!(rule.bound(farthest, radius), Bound::NONE, "{farthest:e}, {radius:e}");
     }
-    assert_ne!(rule.bound(1e6, 1e-6), Bound::NONE);
+    for (farthest, radius) in [
+        (limit.next_up(), 1.0),
+        (1.0, limit.next_up()),
+        (1.0, least.next_down()),
+        (f32::INFINITY, 1.0),
+        (1.0, f32::NAN),
+    ] {
+        assert_eq!(rule.bound(farthest, radius), Bound::NONE, "{farthest:e}, {radius:e}");
+    }
 }
 
 /// A plan without certainty on the same rays is wrong on some, or nothing was close.

@@ -5,6 +5,7 @@ use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use optimized::bound::{NEAREST, Rule, TRUNCATING};
 use optimized::certain::Side;
 use optimized::crew::Crew;
+use optimized::frame::tile_size;
 use optimized::frustum::{Frustum, Heading};
 use optimized::grid::{Bounds, Grid, Memory, widen};
 use optimized::host::Scalar;
@@ -18,6 +19,7 @@ use optimized::{Events, Form, Known, Level, RenderError, Tracer, cull, double, f
 use rand::{Rng, RngExt};
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::time::{Duration, Instant};
 use verify::case::Case;
 use verify::seed::{generator, seed};
 
@@ -492,6 +494,31 @@ fn the_short_way_is_gone_where_it_says() {
     assert!(equal > gone * 99 / 100 && gone > 10_000 && barred > 10_000 && rims > 1_000, "too few");
 }
 
+/// The short way ends at an error of 2⁻²⁶: to balls that are farther away than some 100,000 radii it is not gone.
+#[test]
+fn the_short_way_ends_at_its_limit() {
+    let seed = seed();
+    let mut rng = generator(seed, 14);
+    let drawn: Vec<f64> = (0..2_000).map(|_| power(&mut rng, 10.0, 24.0)).collect();
+    let mut judged = [0u64; 2];
+    for radii in drawn.into_iter().chain([100_000.0, 105_000.0]) {
+        // On an axis |f|₁ is the distance.
+        let radius = power(&mut rng, -15.0, 10.0) as f32;
+        let magnitude = [[0.0; LANES], [(radii * f64::from(radius)) as f32; LANES], [0.0; LANES]];
+        let error = double::short_error::<f64, _>(Scalar, magnitude, [radius; LANES])[0];
+        let what = format!("CGT_SEED={seed}: {radii} radii of {radius:e} away: {error:e}");
+        // v (16 + 1280 F/r), 2 % more or none, against 2⁻²⁶.
+        if radii <= 100_000.0 {
+            judged[0] += 1;
+            assert!(error < 2f32.powi(-26), "{what}");
+        } else if radii >= 105_000.0 {
+            judged[1] += 1;
+            assert_eq!(error, f32::INFINITY, "{what}");
+        }
+    }
+    assert!(judged.iter().all(|n| *n > 300), "{judged:?}");
+}
+
 fn scattered(rng: &mut impl Rng, count: usize, extent: [f32; 3]) -> Vec<Sphere> {
     let mut ball = || Sphere {
         center: extent.map(|e| if e > 0.0 { rng.random_range(-e..e) + 3.0 } else { 3.0 }),
@@ -960,6 +987,51 @@ fn a_crew_has_its_size() {
     assert_eq!(Crew::alone().size(), 1);
 }
 
+/// A stripe is as high as a tile, but of several workers each may take eight, in whole patches of 32 scanlines.
+#[test]
+fn stripes_are_as_high_as_it_says() {
+    let tile = |side: u8| Packet::Tile { side };
+    for (packet, rows, workers, [side, height]) in [
+        (Packet::Block, 1080, 1, [4, 4]),
+        (Packet::Block, 1080, 4, [4, 4]),
+        (tile(1), 1080, 2, [4, 4]),
+        (tile(8), 1080, 8, [32, 32]),
+        (tile(9), 1080, 1, [36, 36]),
+        (tile(9), 1080, 8, [36, 32]),
+        (tile(9), 1080, 2, [36, 36]),
+        (tile(16), 1080, 1, [64, 64]),
+        (tile(16), 1080, 2, [64, 64]),
+        (tile(32), 1080, 2, [128, 96]),
+        (tile(32), 1080, 3, [128, 64]),
+        (tile(32), 1080, 8, [128, 32]),
+        (tile(32), 4000, 2, [128, 128]),
+        (tile(32), 511, 2, [128, 32]),
+        (tile(32), 528, 2, [128, 64]),
+        (tile(32), 10, 2, [128, 32]),
+        (tile(32), 1080, usize::MAX / 8, [128, 32]),
+    ] {
+        let given = tile_size(packet, rows, workers);
+        assert_eq!(given, [side, height], "{packet:?}, {rows} rows, {workers} workers");
+    }
+}
+
+/// Building and tracing follow one another within the time that a frame takes.
+#[test]
+fn times_are_parts_of_the_frame() {
+    let mut rng = generator(seed(), 15);
+    let scene = Scene::new(scattered(&mut rng, 200_000, [2.0; 3]), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(4, 4).expect("small");
+    let camera = Camera::new([9.0; 3], [-1.0; 3], [0.01, 0.0, 0.0], [0.0, 0.01, 0.0], size).expect("valid");
+    for plan in [Plan::fast(), Plan::safe()] {
+        let tracer = Tracer::new(plan, Level::best().expect("a level"));
+        let start = Instant::now();
+        let times = tracer.render(&scene, &camera).expect("nothing to refuse").times;
+        let whole = start.elapsed();
+        assert!(times.build > Duration::ZERO && times.trace > Duration::ZERO, "{plan}: {times:?}");
+        assert!(times.build + times.trace <= whole, "{plan}: {times:?} of {whole:?}");
+    }
+}
+
 /// What f64 is not sure of has two ends that differ, so that nobody takes one of them for t.
 #[test]
 fn an_uncertain_root_has_two_ends() {
@@ -1032,21 +1104,54 @@ fn counts_of_tiles_are_what_they_say() {
     }
 }
 
-/// From within a sphere every ray is answered once, whatever its major axis, and by f32 alone.
+/// From within a sphere, or twenty one around another, every ray is answered once, whatever its major axis, and by f32 alone.
 #[test]
 fn every_lane_is_answered_once() {
-    let ball = Sphere { center: [0.01, 0.02, -0.03], radius: 5.0, color: [1; 3] };
-    let scene = Scene::new(vec![ball], [0; 3], DEFAULT_LIGHT).expect("valid");
-    for (width, height) in [(32, 32), (29, 31), (4, 4), (65, 33)] {
+    let ball = |radius: u16| Sphere { center: [0.01, 0.02, -0.03], radius: radius.into(), color: [1; 3] };
+    let nested = [9, 17, 12, 23, 6, 14, 20, 8, 11, 19, 24, 7, 16, 5, 10, 22, 13, 18, 21, 15];
+    let scenes = [(vec![5], 0), (nested.to_vec(), 13)];
+    for ((width, height), (radii, nearest)) in [(32, 32), (29, 31), (4, 4), (65, 33)]
+        .into_iter()
+        .flat_map(|size| scenes.iter().map(move |scene| (size, scene)))
+    {
+        let scene =
+            Scene::new(radii.iter().map(|r| ball(*r)).collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
         let size = Size::new(width, height).expect("small");
         // Directions of whole numbers, of which many are as long on two axes.
         let camera = Camera::new([0.0; 3], [-20.5, -19.5, -20.0], [1.0, 0.0, 1.0], [0.0, 1.0, 0.0], size);
         let camera = camera.expect("valid");
         for side in [1, 2, 16] {
             let plan = Plan { packet: Packet::Tile { side }, ..Plan::fast() };
-            let (counts, _) = costs(&scene, &camera, plan, 1);
+            let (counts, image) = costs(&scene, &camera, plan, 1);
             let lanes = 16 * u64::from(width.div_ceil(4) * height.div_ceil(4));
-            assert_eq!((counts.lanes, counts.asked_f64), (lanes, 0), "{width}x{height}, {plan}: {counts:?}");
+            let what = format!("{width}x{height}, {} spheres, {plan}: {counts:?}", radii.len());
+            assert_eq!((counts.lanes, counts.asked_f64), (lanes, 0), "{what}");
+            assert!(image.ids.iter().all(|id| id == nearest), "{what}");
+        }
+    }
+}
+
+/// Beyond the picture's edge a block's lanes repeat its last column or row, and ask nothing of their own: here the next ray would have no
+/// direction at all.
+#[test]
+fn lanes_beyond_the_edge_repeat_the_last_ray() {
+    let ball = Sphere { center: [0.01, 0.02, -0.03], radius: 5.0, color: [1; 3] };
+    let scene = Scene::new(vec![ball], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let (du, dv) = ([1.0, 0.25, 0.5], [0.125, -1.0, 0.5]);
+    for (width, height) in [(1u32, 1u32), (3, 1), (1, 3), (2, 7), (5, 2), (33, 34)] {
+        for [x, y] in [[width, 0], [width, height - 1], [0, height], [width - 1, height]] {
+            let [x, y] = [x as f32 + 0.5, y as f32 + 0.5];
+            let corner = [0, 1, 2].map(|i| -(x * du[i] + y * dv[i]));
+            let size = Size::new(width, height).expect("small");
+            let camera = Camera::new([0.0; 3], corner, du, dv, size).expect("valid");
+            let lanes = 16 * u64::from(width.div_ceil(4) * height.div_ceil(4));
+            for packet in [Packet::Block, Packet::Tile { side: 1 }, Packet::Tile { side: 16 }] {
+                let plan = Plan { packet, ..Plan::fast() };
+                let (counts, image) = costs(&scene, &camera, plan, 1);
+                let what = format!("{width}x{height}, no direction at {x}, {y}, {plan}: {counts:?}");
+                assert_eq!((counts.lanes, counts.asked_f64, counts.asked_integers), (lanes, 0, 0), "{what}");
+                assert!(image.ids.iter().all(|id| *id == 0), "{what}");
+            }
         }
     }
 }

@@ -382,6 +382,33 @@ fn what_one_column_of_blocks_shows_is_cleared() {
     }
 }
 
+/// Pictures of fewer columns than a block has, and something in one of many rows of blocks: nothing is written beside a row's end, which
+/// is where the next one begins.
+#[test]
+fn rows_narrower_than_a_block_are_kept() {
+    for (width, height) in (1u16..=5).flat_map(|width| [(width, 3u16), (width, 9), (width, 33)]) {
+        let size = Size::new(width.into(), height.into()).expect("a size");
+        let corner = [-f32::from(width) / 2.0, f32::from(height) / 2.0, -20.0];
+        let camera =
+            Camera::new([0.0; 3], corner, [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], size).expect("a camera");
+        for (x, y) in (0..width).flat_map(|x| (0..height).map(move |y| (x, y))) {
+            let center = [corner[0] + f32::from(x) + 0.5, corner[1] - f32::from(y) - 0.5, -20.0];
+            let ball = Sphere { center, radius: 0.4, color: [200; 3] };
+            let scene = Scene::new(vec![ball], [3; 3], DEFAULT_LIGHT).expect("valid");
+            let truth = exact(&scene, &camera);
+            assert_eq!(truth.ids.iter().filter(|id| **id != MISS).count(), 1, "one pixel sees the ball");
+            for packet in [Packet::Block, Packet::Tile { side: 1 }, Packet::Tile { side: 16 }] {
+                let plan = Plan { packet, ..Plan::fast() };
+                let given = Tracer::new(plan, Level::best().expect("a level")).render(&scene, &camera);
+                let given = given.expect("nothing to refuse");
+                assert_equal(&truth, &given.image, &|| {
+                    format!("{width}x{height}, a ball at {x}, {y}; {plan}")
+                });
+            }
+        }
+    }
+}
+
 /// Many small spheres in one tile and in many slices, so that candidates come in several rounds, and hardly one hides another: whichever
 /// were left out would be seen.
 #[test]

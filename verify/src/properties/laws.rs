@@ -206,6 +206,7 @@ fn broken<M: Machine>(m: M, drawn: &Drawn, ieee: bool) -> Vec<&'static str> {
             m.any(a, Site::Sphere) == (drawn.masks[0] != 0)
                 && m.again(a, Site::NextCell) == (drawn.masks[0] != 0),
         ),
+        ("i + 0 = i", whole(m.add_i(i, zero)) == whole(i)),
         ("i + j = j + i", whole(m.add_i(i, j)) == whole(m.add_i(j, i))),
         ("i + j + 1 = i + (j + 1)", {
             let one = m.splat_i(1);
