@@ -21,9 +21,14 @@ pub(crate) fn bars(title: &str, x: &str, rows: &[(String, u64)]) -> String {
     let Some(scale) = Scale::over(values, [LEFT, RIGHT], true, Scaling::Logarithmic) else {
         return String::new();
     };
-    for tick in scale.ticks() {
+    let ticks = scale.ticks();
+    // Of many decades every other one, so that their numbers stand apart.
+    let every = 1 + ticks.len() / 8;
+    for (k, tick) in ticks.into_iter().enumerate() {
         line(&mut svg, "grid", [scale.at(tick), TOP - 6.0], [scale.at(tick), bottom]);
-        words(&mut svg, "middle", [scale.at(tick), bottom + 18.0], &power(tick));
+        if k % every == 0 {
+            words(&mut svg, "middle", [scale.at(tick), bottom + 18.0], &power(tick));
+        }
     }
     words(&mut svg, "middle", [(LEFT + RIGHT) / 2.0, bottom + 40.0], x);
     for (k, (word, n)) in rows.iter().enumerate() {
