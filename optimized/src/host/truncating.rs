@@ -26,13 +26,14 @@ fn read(x: __m512i) -> __m512i {
     unsafe { _mm512_maskz_mov_epi32(_mm512_test_epi32_mask(x, _mm512_set1_epi32(EXPONENT)), x) }
 }
 
-/// Lanes whose exponent is at least that of `limit`.
+/// Lanes of a result that may not be the SPU's: from the exponent of IEEE 754's greatest number on. With an operand beyond that, which IEEE
+/// 754 has as an infinity or no number, a result is one too.
 #[inline(always)]
-fn large(x: __m512i, limit: i32) -> __mmask16 {
+fn beyond(out: __m512i) -> __mmask16 {
     // SAFETY: called by operations of `Truncating` alone.
     unsafe {
-        let exponent = _mm512_and_si512(x, _mm512_set1_epi32(EXPONENT));
-        _mm512_cmpge_epi32_mask(exponent, _mm512_set1_epi32(limit))
+        let exponent = _mm512_and_si512(out, _mm512_set1_epi32(EXPONENT));
+        _mm512_cmpge_epi32_mask(exponent, _mm512_set1_epi32(0x7f00_0000))
     }
 }
 
@@ -50,8 +51,7 @@ fn mended(
         let [x, y, z] = [_mm512_castsi512_ps(x), _mm512_castsi512_ps(y), _mm512_castsi512_ps(z)];
         _mm512_castps_si512(operation([x, y, z]))
     };
-    let beyond = large(x, EXPONENT) | large(y, EXPONENT) | large(z, EXPONENT) | large(out, 0x7f00_0000);
-    if beyond == 0 { read(out) } else { by_spu([x, y, z], again) }
+    if beyond(out) == 0 { read(out) } else { by_spu([x, y, z], again) }
 }
 
 #[cold]

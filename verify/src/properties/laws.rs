@@ -2,7 +2,7 @@
 //! quickcheck over every class of bit patterns, held in every lane. They need no oracle and so catch what an oracle misread; that each
 //! operation for itself gives what the trait says is another test's business (`tests/machine.rs`).
 
-use optimized::host::{Spu, Work};
+use optimized::host::Work;
 use optimized::machine::{LANES, Machine, Site};
 use optimized::{Level, host::Scalar};
 use quickcheck::{Arbitrary, Gen, QuickCheck, TestResult, Testable};
@@ -134,14 +134,14 @@ impl Arbitrary for Drawn {
     }
 }
 
-/// Which law is broken, if one is.
+/// Which laws are broken, by a level's machine or by that for the SPU's numbers.
 struct Laws<'a>(&'a Drawn, bool);
 
 impl Work for Laws<'_> {
     type Output = Vec<&'static str>;
 
     fn on<M: Machine + Send + Sync>(self, m: M) -> Self::Output {
-        broken(m, self.0, self.1)
+        if self.1 { broken(m.spu(), &tame(self.0), false) } else { broken(m, self.0, true) }
     }
 }
 
@@ -281,10 +281,11 @@ fn broken<M: Machine>(m: M, drawn: &Drawn, ieee: bool) -> Vec<&'static str> {
     laws.into_iter().filter(|(_, holds)| !holds).map(|(law, _)| law).collect()
 }
 
-/// The machines that laws are held of, each with whether it is one of all f32.
-fn machines() -> Vec<(&'static str, Option<Level>)> {
-    let levels = Level::available().into_iter().map(|level| (level.name(), Some(level)));
-    levels.chain([("spu", None)]).collect()
+/// The machines that laws are held of: of each level its own, and that for the SPU's numbers, where levels differ in it.
+fn machines() -> Vec<(String, Level, bool)> {
+    let own = Level::available().into_iter().map(|level| (level.name().to_string(), level, false));
+    let spu = [Some(Level::SCALAR), Level::available().pop()].into_iter().flatten();
+    own.chain(spu.map(|level| (format!("spu at {level}"), level, true))).collect()
 }
 
 /// Lanes by their class, of all that was drawn.
@@ -292,7 +293,8 @@ pub type Drawings = BTreeMap<Class, u64>;
 
 /// A law on a machine, and what was drawn.
 struct Held {
-    level: Option<Level>,
+    level: Level,
+    spu: bool,
     drawings: Arc<Mutex<Drawings>>,
 }
 
@@ -304,10 +306,7 @@ impl Testable for Held {
                 *drawings.entry(Class::of(*bits)).or_default() += 1;
             }
         }
-        let broken = |drawn: &Drawn| match self.level {
-            Some(level) => level.run(Laws(drawn, true)),
-            None => on_spu(drawn),
-        };
+        let broken = |drawn: &Drawn| self.level.run(Laws(drawn, self.spu));
         if broken(&drawn).is_empty() {
             return TestResult::passed();
         }
@@ -318,13 +317,13 @@ impl Testable for Held {
 
 /// On the SPU there is no NaN, infinity or subnormal number, and zero has one sign: what has no meaning there is brought to its numbers
 /// first, as its own arithmetic does.
-fn on_spu(drawn: &Drawn) -> Vec<&'static str> {
+fn tame(drawn: &Drawn) -> Drawn {
     let tame = |bits: u32| match Class::of(bits) {
         Class::Zero | Class::Subnormal => 0,
         Class::Nan | Class::Infinite | Class::Huge => bits & 0x8000_0000 | 0x7e00_0000 | bits & 0xffff,
         Class::Normal | Class::Whole | Class::AtLimit => bits,
     };
-    broken(Spu, &Drawn { numbers: drawn.numbers.map(|lanes| lanes.map(tame)), ..drawn.clone() }, false)
+    Drawn { numbers: drawn.numbers.map(|lanes| lanes.map(tame)), ..drawn.clone() }
 }
 
 /// Holds every machine to the laws, so many drawings each; what was drawn, and the names of the machines.
@@ -334,11 +333,11 @@ fn on_spu(drawn: &Drawn) -> Vec<&'static str> {
 ///
 /// # Panics
 /// If a machine panics.
-pub fn laws(seed: u64, tests: u64) -> Result<(Drawings, Vec<&'static str>), String> {
+pub fn laws(seed: u64, tests: u64) -> Result<(Drawings, Vec<String>), String> {
     let drawings = Arc::new(Mutex::new(Drawings::new()));
     let mut names = Vec::new();
-    for (name, level) in machines() {
-        let held = Held { level, drawings: Arc::clone(&drawings) };
+    for (name, level, spu) in machines() {
+        let held = Held { level, spu, drawings: Arc::clone(&drawings) };
         let mut quickcheck =
             QuickCheck::new().tests(tests).max_tests(tests).rng(Gen::from_size_and_seed(64, seed));
         quickcheck.quicktest(held).map_err(|failed| format!("{name}: {failed:?}"))?;
