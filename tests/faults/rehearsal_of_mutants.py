@@ -17,6 +17,9 @@ SOURCE = rehearsal.FILES[FILE] + """
 /// How many there are; no `if` can choose it.
 pub const COUNT: usize = 3 - 1;
 
+/// Bytes of a row, on which another package depends.
+pub const WIDTH: usize = 8 / 2;
+
 /// What no test comes to.
 pub fn unreached(x: u32) -> u32 {
     x + 1
@@ -46,6 +49,8 @@ TESTS = rehearsal.FILES["tests/small.rs"] + """
 fn others() {
     use optimized::{among, numbers, twice_or_none, COUNT};
     assert_eq!([COUNT; 1], [2]);
+    let row: [u8; optimized::WIDTH] = [1, 2, 3, 4];
+    assert_eq!(row[3], 4);
     assert!(numbers(3).eq([0, 1, 2]));
     assert_eq!([2, 3, 4, 5].map(among), [false, true, true, false]);
     assert_eq!([Some(3), Some(10), None].map(twice_or_none), [6, 0, 0]);
@@ -65,6 +70,7 @@ CASES = [
     ("BinaryOperator", "halvings", "count = (count + 1) % 1000;", "%", "/", CHECK),
     ("FnValue", "third", "three[at]", "three[at]", "three[at + 1]", PANIC),
     ("BinaryOperator", "COUNT", "pub const COUNT: usize = 3 - 1;", "-", "+", CHECK),
+    ("BinaryOperator", "WIDTH", "pub const WIDTH: usize = 8 / 2;", "/", "*", UNVIABLE),
     ("BinaryOperator", "unreached", "x + 1", "+", "-", SURVIVOR),
     ("FnValue", "numbers", "0..x", "0..x", "::std::iter::empty()", CHECK),
     ("FnValue", "numbers", "0..x", "0..x", "::std::iter::once(1)", CHECK),

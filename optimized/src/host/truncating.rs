@@ -1,8 +1,8 @@
 //! The arithmetic of the SPU (contract, rule 6) in AVX-512, whose instructions can each be told to round towards zero.
 //!
 //! That differs from rule 6 in four ways, each mended: subnormal operands are made zero before an operation, subnormal results
-//! and −0 are made +0 after it; where an operand has the exponent 255, or a result the exponent 254 or more, it might be a number that IEEE
-//! 754 has not, and the operation is done again by [`Spu`]. No control register is touched.
+//! and −0 are made +0 after it; where a result has the exponent 254 or more, as it has if an operand has 255, one of them might be a number
+//! that IEEE 754 has not, and the operation is done again as [`Spu`] does it. No control register is touched.
 #![allow(unsafe_code, reason = "intrinsics; each names why it may be called")]
 
 use super::spu::{self, Spu, UNIT};
@@ -26,8 +26,8 @@ fn read(x: __m512i) -> __m512i {
     unsafe { _mm512_maskz_mov_epi32(_mm512_test_epi32_mask(x, _mm512_set1_epi32(EXPONENT)), x) }
 }
 
-/// Lanes of a result that may not be the SPU's: from the exponent of IEEE 754's greatest number on. With an operand beyond that, which IEEE
-/// 754 has as an infinity or no number, a result is one too.
+/// Lanes of a result that may not be the SPU's: from the exponent of IEEE 754's greatest number on. An operand beyond that IEEE 754 has as
+/// an infinity or no number, and then the result is one too.
 #[inline(always)]
 fn beyond(out: __m512i) -> __mmask16 {
     // SAFETY: called by operations of `Truncating` alone.

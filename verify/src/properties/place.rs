@@ -164,7 +164,7 @@ fn add(
             let (mut center, radius, axis) = (camera.eye(), large(radius), usize::from(axis));
             let eye = center[axis];
             center[axis] = if upper { eye + radius } else { eye - radius };
-            // The radius that the rounded centre asks for, so that without ulp the eye is on it exactly.
+            // The radius that the rounded centre asks for: without ulp the eye is on it exactly, wherever that is a float.
             let radius = (center[axis] - eye).abs();
             center[axis] = ulps(center[axis], off);
             push(spheres, center, radius);
