@@ -112,7 +112,14 @@ impl Arbitrary for Drawn {
                 _ => {}
             }
         }
-        let mut integer = || std::array::from_fn(|_| u32::arbitrary(g) >> (u32::arbitrary(g) % 32));
+        // Of all sizes, and near both ends, where sums wrap.
+        let mut integer = || {
+            std::array::from_fn(|_| match u32::arbitrary(g) % 8 {
+                0 => 0x7fff_ffff - u32::arbitrary(g) % 4,
+                1 => 0x8000_0000 + u32::arbitrary(g) % 4,
+                _ => u32::arbitrary(g) >> (u32::arbitrary(g) % 32),
+            })
+        };
         let integers = [integer(), integer()];
         Self { numbers, integers, masks: std::array::from_fn(|_| u32::arbitrary(g) & 0xffff) }
     }
