@@ -125,7 +125,8 @@ fn corpora_are_small() {
     }
 }
 
-/// `fuzz/targets`, `fuzz/Cargo.toml`, `fuzz/corpus` and [`TARGETS`] name the same, and each program runs the body of its name.
+/// `fuzz/targets`, `fuzz/Cargo.toml`, `fuzz/corpus` and [`TARGETS`] name the same, each program runs the body of its name, and for each
+/// there is a fault that it must find.
 #[test]
 fn all_that_names_targets_agrees() {
     let known: BTreeSet<String> = TARGETS.iter().map(|target| target.name.to_owned()).collect();
@@ -153,5 +154,9 @@ fn all_that_names_targets_agrees() {
         .collect();
     let wanted = known.iter().map(|name| (name.clone(), format!("{name}.rs"))).collect();
     assert_eq!(bins, wanted, "fuzz/Cargo.toml");
+    let faults = std::fs::read_to_string(folder().join("faults.toml")).expect("the faults");
+    for name in &known {
+        assert!(faults.lines().any(|line| line == format!("fuzz = \"{name}\"")), "no fault for {name}");
+    }
     assert_eq!(package.metadata["cargo-fuzz"], serde_json::Value::Bool(true), "what cargo-fuzz asks for");
 }
