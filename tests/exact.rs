@@ -182,6 +182,36 @@ fn the_filter_needs_its_bound_at_a_surface() {
     assert!(hits > cases / 10 && hits < cases * 9 / 10 && differ > cases / 100, "too little was at stake");
 }
 
+/// Rays that leave a ball's middle behind, from 10⁻⁶ to 10⁻²⁷ radii inside its surface, on it or outside: whoever is inside sees the surface, and
+/// nobody else, however little that is.
+#[test]
+fn just_inside_a_surface_it_is_seen() {
+    let (seed, cases) = (seed(), count("CGT_SURFACE_CASES", 100_000));
+    let each = (0..cases).into_par_iter().map(|i| {
+        let mut rng = generator(seed, i);
+        let scale = f32::from(rng.random_range(1..1000u16)) * 2f32.powi(rng.random_range(-40..40));
+        // The surface goes through the origin, and its normal there is (3, 4, 0).
+        let sphere = Sphere { center: [-3.0 * scale, -4.0 * scale, 0.0], radius: 5.0 * scale, color: [9; 3] };
+        let sign = [-1.0f32, 0.0, 1.0][rng.random_range(0..3)];
+        let off = sign * 2f32.powi(rng.random_range(-90..-20)) * scale;
+        let [along, up] = [(); 2].map(|()| rng.random_range(-1.0f32..1.0));
+        let dir = [3.0 - 4.0 * along, 4.0 + 3.0 * along, up];
+        let ray = Ray { eye: [3.0 * off, 4.0 * off, 0.0], dir };
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("a sphere");
+        for arithmetic in [Arithmetic::Exact, Arithmetic::ExactUnfiltered] {
+            let seen = Tracer::new(arithmetic).trace(&ray, &scene).is_some();
+            let replay = || format!("{arithmetic:?}: case {i} of CGT_SEED={seed}: {ray:?}, {scene:?}");
+            assert_eq!(seen, sign < 0.0, "seen, inside; {}", replay());
+        }
+        u64::from(sign < 0.0)
+    });
+    let inside: u64 = each.sum();
+    assert!(
+        inside > cases / 4 && inside < cases / 2,
+        "{inside} of {cases} are inside: too little was at stake"
+    );
+}
+
 /// Where no decision is close the filters decide, and integers are hardly asked.
 #[test]
 fn integers_are_hardly_asked_where_nothing_is_close() {

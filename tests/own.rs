@@ -156,6 +156,8 @@ fn a_fault_is_found_and_shown_and_kept_as_the_smallest_case() {
     let case = Case::from_json(&std::fs::read(&file).expect("a case")).expect("readable");
     assert_eq!(case.frames.frames()[0].spheres().len(), 2, "{text}");
     assert_eq!(case.camera.size().pixels(), 1, "{text}");
+    // It is kept as a promise, and not as what must stay wrong.
+    assert_eq!(case.expected, Verdict::Undecidable, "{text}");
     assert!(desk.path().join("cases/mine.png").exists());
     assert!(text.contains("kept: cgt replay cases/mine.json --pixel 0,0 --subject-cmd \"mine="), "{text}");
 
