@@ -128,6 +128,23 @@ fn every_planted_fault_is_wrong_and_counted() {
     }
 }
 
+/// No rounding brings a miss nearer: its t is infinite or wrong, whatever the promise.
+#[test]
+fn a_miss_at_a_distance_is_wrong() {
+    let bench = Bench::new();
+    let at = bench.pixel(false);
+    for rounding in FORMS {
+        for t in [0.0, 1e30, f32::MAX, f32::NEG_INFINITY, f32::NAN] {
+            let mut image = bench.naive(rounding);
+            assert_eq!((image.ids[at], image.t[at]), (MISS, f32::INFINITY), "{rounding:?}");
+            image.t[at] = t;
+            let judgement = bench.judge(&image, Promise::Rounded(rounding), None);
+            assert_eq!(judgement.verdict, Verdict::Wrong, "{rounding:?}, t {t}: {judgement:?}");
+            assert_eq!(judgement.comparison.map(|c| c.unexplained), Some(1), "{rounding:?}, t {t}");
+        }
+    }
+}
+
 #[test]
 fn pictures_of_other_shapes_are_wrong() {
     let bench = Bench::new();

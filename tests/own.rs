@@ -320,6 +320,8 @@ fn ids_of_no_sphere_and_t_that_is_no_number_are_wrong() {
         let image = tracer.render(&scene, &camera, 1, &|| ()).expect("a picture").image;
         let verdict = judge(&scene, &camera, &truth, &image, tracer.promise(), None).verdict;
         assert_eq!(verdict == Verdict::Wrong, wrong, "{name}: {verdict:?}");
+        let mut misses = image.ids.iter().zip(&image.t).filter(|(id, _)| **id == MISS);
+        assert!(misses.all(|(_, t)| *t == f32::INFINITY), "{name}: a miss is infinitely far");
         assert!(image.ids.iter().any(|id| *id != MISS), "nothing was at stake");
     }
 }

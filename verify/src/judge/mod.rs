@@ -130,9 +130,9 @@ fn explain(
 /// Whether rounding can turn this ray's truth into that answer. `None` if the bound states nothing.
 ///
 /// The answer's own sphere must be one that may be hit, at a t that may be had; and no sphere that must be
-/// hit may be certain to be nearer. The colour of an equal id and t is never a matter of rounding.
+/// hit may be certain to be nearer. The colour of an equal id and t is never a matter of rounding, nor is the t of a miss.
 fn explains(scene: &Scene, ray: &Ray, rounding: Rounding, fault: Fault, id: u32, t: f32) -> Option<bool> {
-    if fault == Fault::Color {
+    if fault == Fault::Color || (id == MISS && t != f32::INFINITY) {
         return Some(false);
     }
     if id != MISS {
