@@ -128,7 +128,7 @@ fn every_planted_fault_is_wrong_and_counted() {
     }
 }
 
-/// No rounding brings a miss nearer: its t is infinite or wrong, whatever the promise.
+/// No rounding brings a miss nearer: under every rounded promise its t is infinite or wrong.
 #[test]
 fn a_miss_at_a_distance_is_wrong() {
     let bench = Bench::new();
