@@ -3,7 +3,7 @@
 
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use rayon::prelude::*;
-use reference::{Arithmetic, Ray, Tracer};
+use reference::{Arithmetic, Hit, Ray, Tracer, shade};
 use verify::directed::{KINDS, case};
 use verify::judge::band::band;
 use verify::judge::compare::{compare, ulps_apart};
@@ -44,6 +44,22 @@ impl Bench {
 
     fn judge(&self, subject: &Image, promise: Promise, naive: Option<&Image>) -> Judgement {
         judge(&self.scene, &self.camera, &self.truth, subject, promise, naive)
+    }
+
+    /// Puts an answer into a pixel, and its colour by rule 4.
+    fn put(&self, image: &mut Image, at: usize, id: u32, t: f32) {
+        let [x, y] = [at % 96, at / 96].map(|x| u32::try_from(x).expect("small"));
+        let [r, g, b] = self.scene.background();
+        let is_one = (id as usize) < self.scene.spheres().len();
+        let ray = Ray::of_pixel(&self.camera, x, y);
+        let color = if is_one { shade(&self.scene, &ray, Hit { id, t }) } else { [r, g, b, 255] };
+        (image.ids[at], image.t[at], image.rgba[at]) = (id, t, color);
+    }
+
+    /// Multiplies the t of a hit.
+    fn move_by(&self, image: &mut Image, factor: f32) {
+        let at = self.pixel(true);
+        self.put(image, at, self.truth.ids[at], self.truth.t[at] * factor);
     }
 
     /// The first pixel after the middle that hits, or that misses.
@@ -98,14 +114,16 @@ fn a_sphere_behind_another_is_wrong() {
 
 type Plant = (&'static str, fn(&Bench, &mut Image), fn(&Comparison) -> u64);
 
-/// Faults, and the count that must rise by one.
-const PLANTS: [Plant; 7] = [
-    ("missing", |b, image| image.ids[b.pixel(true)] = MISS, |c| c.missing),
-    ("extra", |b, image| image.ids[b.pixel(false)] = 3, |c| c.extra),
-    ("swapped", |b, image| image.ids[b.pixel(true)] ^= 1, |c| c.swapped),
-    ("no such sphere", |b, image| image.ids[b.pixel(true)] = 1_000_000, |c| c.swapped),
-    ("t", |b, image| image.t[b.pixel(true)] *= 1.01, |c| c.wrong_t),
-    ("t is NaN", |b, image| image.t[b.pixel(true)] = f32::NAN, |c| c.wrong_t),
+/// Faults, and the count that must rise by one. But for the last they have the colour that fits them.
+const PLANTS: [Plant; 9] = [
+    ("missing", |b, image| b.put(image, b.pixel(true), MISS, f32::INFINITY), |c| c.missing),
+    ("extra", |b, image| b.put(image, b.pixel(false), 3, 1.0), |c| c.extra),
+    ("extra, but no hit", |b, image| b.put(image, b.pixel(false), 3, f32::INFINITY), |c| c.extra),
+    ("swapped", |b, image| b.put(image, b.pixel(true), b.truth.ids[b.pixel(true)] ^ 1, 1.0), |c| c.swapped),
+    ("no such sphere", |b, image| b.put(image, b.pixel(true), 1_000_000, 1.0), |c| c.swapped),
+    ("t", |b, image| b.move_by(image, 1.01), |c| c.wrong_t),
+    ("t is negative", |b, image| b.move_by(image, -1.0), |c| c.wrong_t),
+    ("t is NaN", |b, image| b.move_by(image, f32::NAN), |c| c.wrong_t),
     ("color", |b, image| image.rgba[b.pixel(true)][1] ^= 1, |c| c.wrong_color),
 ];
 
@@ -141,6 +159,64 @@ fn a_miss_at_a_distance_is_wrong() {
             let judgement = bench.judge(&image, Promise::Rounded(rounding), None);
             assert_eq!(judgement.verdict, Verdict::Wrong, "{rounding:?}, t {t}: {judgement:?}");
             assert_eq!(judgement.comparison.map(|c| c.unexplained), Some(1), "{rounding:?}, t {t}");
+        }
+    }
+}
+
+/// Whatever rounding makes of id and t, their colour is one: that of another t, of the truth, or of nothing is wrong, and the
+/// sound picture beside it is not.
+#[test]
+fn a_colour_not_of_its_t_is_wrong() {
+    let bench = Bench::new();
+    for rounding in FORMS {
+        let at = bench.pixel(true);
+        let sound = |t: f32| {
+            let mut image = bench.truth.clone();
+            bench.put(&mut image, at, bench.truth.ids[at], t);
+            image
+        };
+        // In f64 nothing but the rounding of t at the end is open, and that is less than a step.
+        let truth = bench.truth.t[at];
+        let steps = [truth.next_up(), truth.next_down(), truth];
+        let judged = |image: &Image| bench.judge(image, Promise::Rounded(rounding), None).verdict;
+        let t = steps.into_iter().find(|t| judged(&sound(*t)) != Verdict::Wrong).expect("the truth is right");
+        assert!(
+            t != truth || rounding == Rounding::TextbookF64,
+            "{rounding:?}: not a step from the truth is explained"
+        );
+        for color in [[0; 4], [0, 0, 0, 255], sound(t * 2.0).rgba[at], bench.truth.rgba[at].map(|x| x ^ 1)] {
+            let mut image = sound(t);
+            image.rgba[at] = color;
+            let judgement = bench.judge(&image, Promise::Rounded(rounding), None);
+            assert_eq!(judgement.verdict, Verdict::Wrong, "{rounding:?}, {color:?}: {judgement:?}");
+            assert_eq!(judgement.comparison.map(|c| c.unexplained), Some(1), "{rounding:?}, {color:?}");
+        }
+    }
+}
+
+/// An eye exactly on a surface sees the far side, or by rounding the near one at a t above 0, and never at 0: that a hit needs t > 0 is no
+/// matter of rounding. In f64 such a t may become 0 when it is rounded to f32, so nothing is asked there.
+#[test]
+fn who_sees_the_surface_it_is_on_is_wrong() {
+    let ball = Sphere { center: [0.0, 0.0, -1.0], radius: 1.0, color: [9; 3] };
+    let scene = Scene::new(vec![ball], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(1, 1).expect("a pixel");
+    let camera = Camera::new([0.0; 3], [-0.5, 0.5, -1.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0], size);
+    let camera = camera.expect("a camera");
+    let truth = Tracer::new(Arithmetic::Exact).render(&scene, &camera).expect("small").image;
+    assert_eq!((truth.ids[0], truth.t[0]), (0, 2.0));
+    let ray = Ray::of_pixel(&camera, 0, 0);
+    for rounding in FORMS.into_iter().filter(|form| *form != Rounding::TextbookF64) {
+        for (t, verdict) in [
+            (0.0, Verdict::Wrong),
+            (-0.0, Verdict::Wrong),
+            (-f32::MIN_POSITIVE, Verdict::Wrong),
+            (f32::MIN_POSITIVE, Verdict::WithinBound),
+        ] {
+            let image =
+                Image { t: vec![t], rgba: vec![shade(&scene, &ray, Hit { id: 0, t })], ..truth.clone() };
+            let judgement = judge(&scene, &camera, &truth, &image, Promise::Rounded(rounding), None);
+            assert_eq!(judgement.verdict, verdict, "{rounding:?}, t {t:?}: {judgement:?}");
         }
     }
 }

@@ -212,7 +212,7 @@ fn every_count_rises_where_it_should() {
     let open = Some(stand(true, &[0, 1, 2]));
     let steps = |n: u32| (0, f32::from_bits(4f32.to_bits() + n));
     type Row = (Option<Stand>, [(u32, f32); 2], Hearing, Option<&'static str>);
-    let rows: [Row; 17] = [
+    let rows: [Row; 20] = [
         (None, [near, near], Hearing { not_stated: [1, 0], ..blank.clone() }, None),
         (None, [near, far], Hearing { not_stated: [1, 1], ..blank.clone() }, None),
         (decided.clone(), [near, near], exact.clone(), None),
@@ -251,7 +251,10 @@ fn every_count_rises_where_it_should() {
             Some("the reference's id"),
         ),
         (decided.clone(), [near, (0, 4.2)], Hearing { wrong_t: 1, hits: 1, ..blank.clone() }, Some("t")),
-        (decided, [(0, 3.8), near], Hearing { wrong_t: 1, hits: 1, ..blank }, Some("t")),
+        (decided, [(0, 3.8), near], Hearing { wrong_t: 1, hits: 1, ..blank.clone() }, Some("t")),
+        (Some(stand(true, &[])), [miss, (MISS, 9.0)], Hearing { wrong_t: 1, ..blank.clone() }, Some("t")),
+        (Some(stand(true, &[])), [(MISS, 9.0), miss], Hearing { wrong_t: 1, ..blank.clone() }, Some("t")),
+        (Some(stand(true, &[])), [miss, (MISS, f32::NAN)], Hearing { wrong_t: 1, ..blank }, Some("t")),
         (open.clone(), [near, far], one_inside(&both_open, |inside| &mut inside.reference), None),
         (open.clone(), [near, twin], one_inside(&both_open, |inside| &mut inside.ties), None),
         (

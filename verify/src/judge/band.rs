@@ -22,7 +22,8 @@
 //!   by less than 4u and any other by less than 2u: both forms with 8u in place of u. What is lost of quotients below 2⁻⁷⁹ is less than
 //!   what is put on for b.
 //!
-//! Terms of second order and v are covered by 2 % on top. A t that fits f32 is then rounded once more.
+//! Terms of second order and v are covered by 2 % on top. A t that fits f32 is then rounded once more. In f32 that of a hit
+//! is above 0, and on the SPU a normal number; in f64 it may become 0 by that last rounding.
 //! Nothing is stated where f32 could over- or underflow on the way.
 
 use crate::subject::Rounding;
@@ -43,13 +44,17 @@ pub struct Band {
 pub fn band(rounding: Rounding, ray: &Ray, sphere: &Sphere) -> Option<Band> {
     let geometry = Geometry::new(ray, sphere);
     match rounding {
-        Rounding::TextbookF64 => Some(geometry.textbook(V)),
-        Rounding::TextbookF32 => geometry.in_range(GRADUAL).then(|| geometry.textbook(U)),
-        Rounding::PerpendicularF32 => geometry.in_range(GRADUAL).then(|| geometry.perpendicular(&NAIVE)),
-        Rounding::TextbookSpu => geometry.in_range(REMAINS).then(|| geometry.textbook(ON_SPU)),
+        Rounding::TextbookF64 => Some(geometry.textbook(V, above(0.0))),
+        Rounding::TextbookF32 => geometry.in_range(GRADUAL).then(|| geometry.textbook(U, above(LEAST))),
+        Rounding::PerpendicularF32 => {
+            geometry.in_range(GRADUAL).then(|| geometry.perpendicular(&NAIVE, above(LEAST)))
+        }
+        Rounding::TextbookSpu => {
+            geometry.in_range(REMAINS).then(|| geometry.textbook(ON_SPU, above(LEAST_NORMAL)))
+        }
         Rounding::PerpendicularSpu => {
             let form = Perpendicular { unit: ON_SPU, ..NAIVE };
-            geometry.in_range(REMAINS).then(|| geometry.perpendicular(&form))
+            geometry.in_range(REMAINS).then(|| geometry.perpendicular(&form, above(LEAST_NORMAL)))
         }
     }
 }
@@ -83,7 +88,7 @@ const NAIVE: Perpendicular = Perpendicular { unit: U, h: 10.0, root: 4.0, second
 const EMBREE: Perpendicular = Perpendicular { unit: U, h: 13.0, root: 6.0, second: 256.0 };
 
 /// What comes before and after the formula itself: what a search may lose of D before the formula is asked, and the
-/// least t that counts, below which none is given either if that is not 0.
+/// least t that counts; the least that is given.
 #[derive(Clone, Copy)]
 struct Search {
     lost: f64,
@@ -91,7 +96,11 @@ struct Search {
     floor: f64,
 }
 
-const EVERY_SPHERE: Search = Search { lost: 0.0, least: LEAST, floor: 0.0 };
+/// A search that asks the formula of every sphere, and gives no t below a floor.
+fn above(floor: f64) -> Search {
+    Search { lost: 0.0, least: LEAST, floor }
+}
+
 /// The least f32.
 const LEAST: f64 = f32::from_bits(1) as f64;
 /// The least normal f32, from which on rays are asked.
@@ -128,7 +137,7 @@ impl Geometry {
             && self.a > small
     }
 
-    fn textbook(&self, unit: f64) -> Band {
+    fn textbook(&self, unit: f64, search: Search) -> Band {
         let u = 1.02 * (unit + V);
         let (far, n) = (self.ff.sqrt(), self.a.sqrt());
         let discriminant = self.b * self.b - self.a * (self.ff - self.rr);
@@ -139,11 +148,7 @@ impl Geometry {
             let t = |sum: Span| sum.scale(1.0 / self.a).widen(5.0 * u);
             [t(b.minus(s)), t(b.plus(s))]
         };
-        banded(discriminant, error, EVERY_SPHERE, roots)
-    }
-
-    fn perpendicular(&self, form: &Perpendicular) -> Band {
-        self.perpendicular_found(form, EVERY_SPHERE)
+        banded(discriminant, error, search, roots)
     }
 
     /// Sphere points of Embree. Its direction has no component below 10⁻¹⁸: with a above 2⁻⁴⁰ the ray strays by less
@@ -162,13 +167,13 @@ impl Geometry {
         }
         let far = self.ff.sqrt();
         let lost = 1.02 * U * ((corner + r) + (far + r));
-        Some(self.perpendicular_found(
+        Some(self.perpendicular(
             &EMBREE,
             Search { lost: 2.0 * r * lost, least: LEAST_NORMAL, floor: LEAST_NORMAL },
         ))
     }
 
-    fn perpendicular_found(&self, form: &Perpendicular, search: Search) -> Band {
+    fn perpendicular(&self, form: &Perpendicular, search: Search) -> Band {
         let (far, n) = (self.ff.sqrt(), self.a.sqrt());
         let ll = (self.ff - self.b * self.b / self.a).max(0.0);
         let u = 1.02 * form.unit;

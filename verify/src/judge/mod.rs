@@ -17,7 +17,7 @@ use band::band;
 use compare::{Fault, compare, fault_at};
 use contract::{Camera, Image, MISS, Scene};
 use rayon::prelude::*;
-use reference::Ray;
+use reference::{Hit, Ray, shade};
 
 /// A verdict and what it rests on.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,7 +115,8 @@ fn explain(
         for (x, i) in (0..camera.size().width()).zip(y as usize * width..) {
             let Some(fault) = fault_at(truth, subject, i) else { continue };
             let ray = Ray::of_pixel(camera, x, y);
-            match explains(scene, &ray, rounding, fault, subject.ids[i], subject.t[i]) {
+            let answer = Hit { id: subject.ids[i], t: subject.t[i] };
+            match explains(scene, &ray, rounding, fault, answer, subject.rgba[i]) {
                 Some(true) => {}
                 Some(false) => counts[0] += 1,
                 None => counts[1] += 1,
@@ -130,13 +131,25 @@ fn explain(
 /// Whether rounding can turn this ray's truth into that answer. `None` if the bound states nothing.
 ///
 /// The answer's own sphere must be one that may be hit, at a t that may be had; and no sphere that must be
-/// hit may be certain to be nearer. The colour of an equal id and t is never a matter of rounding, nor is the t of a miss.
-fn explains(scene: &Scene, ray: &Ray, rounding: Rounding, fault: Fault, id: u32, t: f32) -> Option<bool> {
-    if fault == Fault::Color || (id == MISS && t != f32::INFINITY) {
+/// hit may be certain to be nearer. The t of a miss is never a matter of rounding, nor is a colour: rule 4 has
+/// one for each id and t, whichever these are.
+fn explains(
+    scene: &Scene,
+    ray: &Ray,
+    rounding: Rounding,
+    fault: Fault,
+    answer: Hit,
+    color: [u8; 4],
+) -> Option<bool> {
+    let Hit { id, t } = answer;
+    let sphere = scene.spheres().get(id as usize);
+    let [r, g, b] = scene.background();
+    let painted = if sphere.is_some() { shade(scene, ray, answer) } else { [r, g, b, 255] };
+    if color != painted || (id == MISS && t != f32::INFINITY) {
         return Some(false);
     }
     if id != MISS {
-        let Some(sphere) = scene.spheres().get(id as usize) else { return Some(false) };
+        let Some(sphere) = sphere else { return Some(false) };
         let own = band(rounding, ray, sphere)?;
         let Some([lo, hi]) = own.may_hit else { return Some(false) };
         if !(lo..=hi).contains(&f64::from(t)) {

@@ -163,11 +163,11 @@ impl Stand {
         usize::from(self.miss) + self.spheres.len() == 1
     }
 
-    /// The range of t in which an answer is open, if it is; of a miss, any.
+    /// The range of t in which an answer is open, if it is; of a miss, infinity alone.
     #[must_use]
     pub fn range(&self, id: u32) -> Option<[f64; 2]> {
         match id {
-            MISS => self.miss.then_some([0.0, f64::INFINITY]),
+            MISS => self.miss.then_some([f64::INFINITY; 2]),
             id => self.spheres.iter().find(|(open, _)| *open == id).map(|(_, range)| *range),
         }
     }
