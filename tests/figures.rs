@@ -197,6 +197,24 @@ fn marked_cells_and_spheres_are_those_the_packet_counted() {
     assert!(cells > 20 && culled > 5, "{cells} cells, {culled} culled: too little was at stake");
 }
 
+/// In every block the marked cells are as many as its packet counted, also where the walk passes slices of which it sees no cell.
+#[test]
+fn cells_that_are_passed_by_are_not_marked() {
+    let mut passed = 0;
+    for (word, paper) in VIEWS {
+        let (scene, camera) = view(word, [96, 54]);
+        let input = input(word, &scene, &camera, paper);
+        let Blocks { seen, blocks } = traced(&input, &|| ()).expect("a model");
+        for block in &blocks {
+            let Ok(Walked { cells, slices, .. }) = walked(&seen, &scene, &camera, block.at) else { continue };
+            assert_eq!(cells.len() as u64, block.counts.cells, "{word}: block {:?}", block.at);
+            passed += (0..slices.count).filter(|slice| slices.is_empty(*slice)).count();
+        }
+    }
+    eprintln!("{passed} slices without cells");
+    assert!(passed > 100, "{passed} slices without cells: too little was at stake");
+}
+
 /// The cells that a grid of lists has a sphere in.
 fn holders(grid: &Grid, id: u32) -> BTreeSet<[usize; 3]> {
     let n = grid.axes.each_ref().map(|axis| axis.n.unsigned_abs() as usize);

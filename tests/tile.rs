@@ -316,10 +316,10 @@ fn frames_of_one_size_follow_each_other() {
     let (seed, mut frames) = (seed(), Vec::new());
     let mut rng = generator(seed, 0);
     for i in 0..24u8 {
-        let count = [40, 40, 0, 3, 40, 300][usize::from(i) % 6];
+        let count = [40, 40, 0, 3, 300, 300][usize::from(i) % 6];
         let mut ball = || Sphere {
             center: std::array::from_fn(|_| rng.random_range(-2.0f32..2.0)),
-            // In every other pair of frames none is large.
+            // In every other six frames none is large.
             radius: rng.random_range(0.13f32..if i % 12 < 6 { 0.4 } else { 0.24 }),
             color: std::array::from_fn(|_| rng.random()),
         };
