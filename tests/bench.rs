@@ -301,21 +301,25 @@ fn planted_faults_are_wrong() {
     let missed = picture.truth.ids.iter().position(|&id| id == MISS).expect("something is missed");
     assert_eq!(picture.wrong(&picture.truth, Oath::Exact, true), 0);
     assert_eq!(picture.wrong(&picture.truth, within, false), 0);
-    type Fault = (&'static str, fn(&mut Image, [usize; 2]), [u64; 2]);
-    let faults: [Fault; 6] = [
-        ("a lost sphere", |i, [seen, _]| (i.ids[seen], i.t[seen]) = (MISS, f32::INFINITY), [1, 1]),
-        ("another sphere", |i, [seen, _]| i.ids[seen] ^= 1, [1, 1]),
-        ("a sphere that is not there", |i, [seen, _]| i.ids[seen] = 300, [1, 1]),
-        ("a sphere where there is none", |i, [_, missed]| (i.ids[missed], i.t[missed]) = (0, 1.0), [1, 1]),
+    type Fault = (&'static str, fn(&mut Image, [usize; 2]), [u64; 3]);
+    // Under an oath of truth; within rounding, not painted and painted.
+    let faults: [Fault; 8] = [
+        ("a lost sphere", |i, [seen, _]| (i.ids[seen], i.t[seen]) = (MISS, f32::INFINITY), [1; 3]),
+        ("another sphere", |i, [seen, _]| i.ids[seen] ^= 1, [1; 3]),
+        ("a sphere that is not there", |i, [seen, _]| i.ids[seen] = 300, [1; 3]),
+        ("a sphere where there is none", |i, [_, missed]| (i.ids[missed], i.t[missed]) = (0, 1.0), [1; 3]),
+        ("a miss at a distance", |i, [_, missed]| i.t[missed] = 1.0, [1; 3]),
         // Of t rounding explains the last bits, and nothing explains a colour.
-        ("a bit of t", |i, [seen, _]| i.t[seen] = f32::from_bits(i.t[seen].to_bits() ^ 1), [1, 0]),
-        ("a colour", |i, [seen, _]| i.rgba[seen][0] ^= 1, [1, 0]),
+        ("a bit of t", |i, [seen, _]| i.t[seen] = f32::from_bits(i.t[seen].to_bits() ^ 1), [1, 0, 0]),
+        ("a colour", |i, [seen, _]| i.rgba[seen][0] ^= 1, [1, 0, 1]),
+        ("a background", |i, [_, missed]| i.rgba[missed][2] ^= 1, [1, 0, 1]),
     ];
-    for (what, fault, [exact, rounded]) in faults {
+    for (what, fault, [exact, bare, painted]) in faults {
         let mut image = picture.truth.clone();
         fault(&mut image, [seen, missed]);
         assert_eq!(picture.wrong(&image, Oath::Exact, true), exact, "{what}, exact");
-        assert_eq!(picture.wrong(&image, within, false), rounded, "{what}, rounded");
+        assert_eq!(picture.wrong(&image, within, false), bare, "{what}, rounded");
+        assert_eq!(picture.wrong(&image, within, true), painted, "{what}, rounded and painted");
     }
     let mut short = picture.truth.clone();
     short.t.pop();

@@ -221,6 +221,37 @@ fn who_sees_the_surface_it_is_on_is_wrong() {
     }
 }
 
+/// Of a picture full of differences that rounding explains the first that it does not is told, the gravest of these, and not the first
+/// of all.
+#[test]
+fn the_pixel_that_is_told_is_not_explained() {
+    let bench = Bench::new();
+    for rounding in FORMS.into_iter().filter(|form| *form != Rounding::TextbookF64) {
+        let sound = bench.naive(rounding);
+        let differs = compare(&bench.truth, &sound).expect("same shape").first_wrong.expect("it rounds");
+        let mut image = sound.clone();
+        let told = |image: &Image| {
+            let judgement = bench.judge(image, Promise::Rounded(rounding), None);
+            let comparison = judgement.comparison.expect("compared");
+            (judgement.verdict, comparison.unexplained, comparison.first_wrong)
+        };
+        assert_eq!(told(&image), (Verdict::WithinBound, 0, Some(differs)), "{rounding:?}");
+        let hits: Vec<usize> = (0..image.ids.len()).filter(|&i| image.ids[i] != MISS).collect();
+        let place = |i: usize| Some([i % 96, i / 96].map(|x| u32::try_from(x).expect("small")));
+        let [early, middle, late] = [hits.len() / 3, hits.len() / 2, hits.len() - 1].map(|n| hits[n]);
+        let equal = |i: &usize| (bench.truth.ids[*i], bench.truth.t[*i]) == (sound.ids[*i], sound.t[*i]);
+        let plain = hits.iter().copied().filter(equal).find(|i| *i > middle).expect("some are equal");
+        image.rgba[plain][0] ^= 1;
+        assert_eq!(told(&image), (Verdict::Wrong, 1, place(plain)), "{rounding:?}: a colour");
+        image.t[late] *= 1.5;
+        assert_eq!(told(&image), (Verdict::Wrong, 2, place(late)), "{rounding:?}: a t behind it");
+        image.t[early] *= 1.5;
+        assert_eq!(told(&image), (Verdict::Wrong, 3, place(early)), "{rounding:?}: a t before both");
+        (image.ids[middle], image.t[middle]) = (MISS, f32::INFINITY);
+        assert_eq!(told(&image), (Verdict::Wrong, 4, place(middle)), "{rounding:?}: an id behind it");
+    }
+}
+
 #[test]
 fn pictures_of_other_shapes_are_wrong() {
     let bench = Bench::new();
@@ -242,6 +273,10 @@ fn the_gravest_fault_is_first() {
     image.rgba[0][0] ^= 1;
     let first = |image: &Image| compare(&bench.truth, image).expect("same shape").first_wrong;
     assert_eq!(first(&image), Some([0, 0]));
+    let nulls = Image { t: vec![0.0; image.t.len()], ..bench.truth.clone() };
+    let mut other = nulls.clone();
+    other.t[97] = -0.0;
+    assert_eq!(compare(&nulls, &other).expect("same shape").first_wrong, Some([1, 1]), "-0 is no +0");
     let i = bench.pixel(true);
     image.t[i] = image.t[i].next_up();
     let place = [u32::try_from(i % 96).expect("small"), u32::try_from(i / 96).expect("small")];

@@ -138,7 +138,7 @@ fn page() -> Made<String> {
     let mut pictures = Vec::new();
     for _ in &scenes {
         let mut set = ScenePictures::new(&truth)?;
-        set.add(&truth, &wrong)?;
+        set.add(&truth, &wrong, Some([58, 1]))?;
         pictures.push(set);
     }
     let report = Report {

@@ -150,8 +150,8 @@ fn pictures(report: &Report) -> Result<Vec<ScenePictures>, Box<dyn Error>> {
         for subject in &scene.subjects {
             match subject.verdict {
                 Verdict::NotJudged => set.skip(),
-                Verdict::Wrong => set.add(&truth, &wrong)?,
-                _ => set.add(&truth, &truth)?,
+                Verdict::Wrong => set.add(&truth, &wrong, Some([58, 1]))?,
+                _ => set.add(&truth, &truth, None)?,
             }
         }
         sets.push(set);

@@ -101,8 +101,8 @@ pub fn run(
                 for note in notes {
                     report.because += &format!(" {note}");
                 }
-                match report.comparison {
-                    Some(_) => pictures.add(&truth, &image)?,
+                match &report.comparison {
+                    Some(comparison) => pictures.add(&truth, &image, comparison.first_wrong)?,
                     None => pictures.skip(),
                 }
                 naive.keep(*subject, threads, image);

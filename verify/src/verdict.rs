@@ -42,7 +42,7 @@ pub struct Comparison {
     /// Largest difference of one colour channel, 0 to 255.
     pub color_max: u8,
     /// Column and row of the first pixel, in row order, with a wrong id; failing that with a wrong t;
-    /// failing that with a wrong colour.
+    /// failing that with a wrong colour. Where some pixels are unexplained, of these alone.
     pub first_wrong: Option<[u32; 2]>,
     /// Wrong pixels that the subject's stated error bound does not explain.
     pub unexplained: u64,

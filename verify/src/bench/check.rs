@@ -1,17 +1,18 @@
 //! Whether a contestant may be timed: its layers against the exact picture, and every difference against its oath.
 //!
 //! Who promised the truth is wrong by the first bit that differs. Of the others a pixel counts as differing if it shows
-//! another sphere, and as wrong if its rounding explains neither that nor its t. Embree, asked as its users ask it, crosses
-//! boxes without a margin and may lose a ray on an edge between two of them; to leave it out for that would leave out its
-//! fastest ways, in favour of the tracer under test. So of those who are not the subject one pixel in [`ALLOWED`] may be
-//! wrong, and how many are is reported.
+//! another sphere, and as wrong if its rounding explains neither that nor its t, or if it has been painted and its colour is
+//! not that of its id and t. Embree, asked as its users ask it, crosses boxes without a margin and may lose a ray on an
+//! edge between two of them; to leave it out for that would leave out its fastest ways, in favour of the tracer under
+//! test. So of those who are not the subject one pixel in [`ALLOWED`] may be wrong, and how many are is reported.
 
 use super::contestant::{Kind, Layers, Oath};
 use crate::judge::outside::Stand;
+use crate::judge::painted;
 use crate::verdict::Verdict;
 use contract::{Camera, Image, MISS, Scene};
 use rayon::prelude::*;
-use reference::Ray;
+use reference::{Hit, Ray};
 
 /// One in so many pixels.
 pub const ALLOWED: usize = 10_000;
@@ -81,7 +82,11 @@ pub fn check(scene: &Scene, camera: &Camera, truth: &Image, layers: Layers<'_>, 
                 Oath::Within(band) => {
                     let ray = Ray::of_pixel(camera, x, y);
                     let differs = layers.ids[i] != truth.ids[i];
-                    (differs, explained(scene, &ray, band, differs, layers.ids[i], layers.t[i]))
+                    let answer = Hit { id: layers.ids[i], t: layers.t[i] };
+                    let fits = layers.rgba.is_none_or(|rgba| rgba[i] == painted(scene, &ray, answer));
+                    let allowed =
+                        if fits { explained(scene, &ray, band, differs, answer) } else { Some(false) };
+                    (differs, allowed)
                 }
             };
             row.differing += u64::from(differs);
@@ -112,9 +117,9 @@ fn explained(
     ray: &Ray,
     band: fn(&Ray, &contract::Sphere) -> Option<crate::judge::band::Band>,
     differs: bool,
-    id: u32,
-    t: f32,
+    answer: Hit,
 ) -> Option<bool> {
+    let Hit { id, t } = answer;
     let within = |range: Option<[f64; 2]>| range.is_some_and(|[lo, hi]| (lo..=hi).contains(&f64::from(t)));
     if !differs && id == MISS {
         return Some(t == f32::INFINITY);

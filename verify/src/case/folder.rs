@@ -65,10 +65,12 @@ pub fn keep(case: &Case, folder: &Path, name: &str) -> Result<Kept, KeepError> {
     };
     let wrong = judged.iter().position(|judged| judged.wrong.is_some());
     let frame = wrong.unwrap_or(judged.len() - 1);
-    let pixel = case.pixel.or(judged[frame].wrong).unwrap_or([0, 0]);
+    let place = case.pixel.or(judged[frame].wrong);
+    let pixel = place.unwrap_or([0, 0]);
     let case = Case { pixel: Some(pixel), ..case.clone() };
     write_atomically(&file, case.to_json().as_bytes())?;
-    let panels = panels(&judged[frame].promised, &judged[frame].picture)?.map(|panel| magnified(&panel));
+    let panels =
+        panels(&judged[frame].promised, &judged[frame].picture, place)?.map(|panel| magnified(&panel));
     write_atomically(&folder.join(format!("{name}.png")), &png(&join(&panels))?)?;
     let account = account(&case, frame, pixel)?;
     write_atomically(&folder.join(format!("{name}.txt")), account.as_bytes())?;

@@ -207,10 +207,11 @@ impl Case {
                 Promise::Exact | Promise::Rounded(_) => None,
             };
             let judgement = judge(scene, &self.camera, &truth, &picture, promise, twin.as_ref());
-            let promised = twin.unwrap_or(truth);
-            let differs = compare(&promised, &picture).ok().and_then(|comparison| comparison.first_wrong);
+            // Of a promise of equality where it is broken; of rounding what that does not explain.
+            let twins = twin.as_ref().and_then(|twin| compare(twin, &picture).ok()?.first_wrong);
+            let differs = twins.or_else(|| judgement.comparison.as_ref()?.first_wrong);
             let wrong = differs.filter(|_| judgement.verdict == Verdict::Wrong);
-            Ok(Judged { promised, picture, judgement, wrong })
+            Ok(Judged { promised: twin.unwrap_or(truth), picture, judgement, wrong })
         });
         each.collect()
     }

@@ -100,7 +100,7 @@ fn wrong(comparison: Option<Comparison>, because: String) -> Judgement {
     Judgement { verdict: Verdict::Wrong, because, comparison }
 }
 
-/// Holds every differing pixel against the form's bound and counts those it does not explain.
+/// Holds every differing pixel against the form's bound, counts those it does not explain, and names the first.
 fn explain(
     scene: &Scene,
     camera: &Camera,
@@ -111,28 +111,43 @@ fn explain(
 ) {
     let width = truth.size.width() as usize;
     let rows = (0..camera.size().height()).into_par_iter().map(|y| {
-        let mut counts = [0u64; 2];
+        let (mut counts, mut first) = ([0u64; 2], [None; 3]);
         for (x, i) in (0..camera.size().width()).zip(y as usize * width..) {
             let Some(fault) = fault_at(truth, subject, i) else { continue };
             let ray = Ray::of_pixel(camera, x, y);
             let answer = Hit { id: subject.ids[i], t: subject.t[i] };
             match explains(scene, &ray, rounding, fault, answer, subject.rgba[i]) {
                 Some(true) => {}
-                Some(false) => counts[0] += 1,
+                Some(false) => {
+                    counts[0] += 1;
+                    first[fault.grade()] = first[fault.grade()].or(Some([x, y]));
+                }
                 None => counts[1] += 1,
             }
         }
-        counts
+        (counts, first)
     });
-    let [unexplained, undecidable] = rows.reduce(|| [0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+    let none = ([0; 2], [None; 3]);
+    let ([unexplained, undecidable], first) = rows.reduce(
+        || none,
+        |(a, one), (b, other)| ([a[0] + b[0], a[1] + b[1]], [0, 1, 2].map(|i| one[i].or(other[i]))),
+    );
     (comparison.unexplained, comparison.undecidable) = (unexplained, undecidable);
+    comparison.first_wrong = first.into_iter().flatten().next().or(comparison.first_wrong);
+}
+
+/// The one colour of an answer, whoever gives it: by rule 4 of a hit, the background of a miss, or of an id of no sphere.
+#[must_use]
+pub fn painted(scene: &Scene, ray: &Ray, answer: Hit) -> [u8; 4] {
+    let [r, g, b] = scene.background();
+    let is_sphere = (answer.id as usize) < scene.spheres().len();
+    if is_sphere { shade(scene, ray, answer) } else { [r, g, b, 255] }
 }
 
 /// Whether rounding can turn this ray's truth into that answer. `None` if the bound states nothing.
 ///
 /// The answer's own sphere must be one that may be hit, at a t that may be had; and no sphere that must be
-/// hit may be certain to be nearer. The t of a miss is never a matter of rounding, nor is a colour: rule 4 has
-/// one for each id and t, whichever these are.
+/// hit may be certain to be nearer. The t of a miss is never a matter of rounding, nor is a colour.
 fn explains(
     scene: &Scene,
     ray: &Ray,
@@ -142,14 +157,11 @@ fn explains(
     color: [u8; 4],
 ) -> Option<bool> {
     let Hit { id, t } = answer;
-    let sphere = scene.spheres().get(id as usize);
-    let [r, g, b] = scene.background();
-    let painted = if sphere.is_some() { shade(scene, ray, answer) } else { [r, g, b, 255] };
-    if color != painted || (id == MISS && t != f32::INFINITY) {
+    if color != painted(scene, ray, answer) || (id == MISS && t != f32::INFINITY) {
         return Some(false);
     }
     if id != MISS {
-        let Some(sphere) = sphere else { return Some(false) };
+        let Some(sphere) = scene.spheres().get(id as usize) else { return Some(false) };
         let own = band(rounding, ray, sphere)?;
         let Some([lo, hi]) = own.may_hit else { return Some(false) };
         if !(lo..=hi).contains(&f64::from(t)) {

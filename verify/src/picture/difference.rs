@@ -27,22 +27,6 @@ pub fn fault_color(fault: Fault) -> [u8; 3] {
     PALETTE[fault as usize].1
 }
 
-/// Column and row of the first pixel, in row order, with a wrong id; failing that with a wrong t; failing that
-/// with a wrong colour: the same rule as [`crate::verdict::Comparison::first_wrong`].
-///
-/// # Errors
-/// [`PictureError::Layer`] and [`PictureError::Sizes`].
-pub fn first_wrong(truth: &Image, subject: &Image) -> Result<Option<[u32; 2]>, PictureError> {
-    check_pair(truth, subject)?;
-    let (width, height) = (truth.size.width(), truth.size.height());
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| [x, y]));
-    let faults = pixels
-        .enumerate()
-        .filter_map(|(index, place)| Some((fault_at(truth, subject, index)?.grade(), place)));
-    // min_by_key keeps the first of equals, which is the first in row order.
-    Ok(faults.min_by_key(|(grade, _)| *grade).map(|(_, place)| place))
-}
-
 /// The difference panel.
 ///
 /// # Errors

@@ -10,9 +10,7 @@ mod triptych;
 mod write;
 
 pub(crate) use self::difference::dimmed;
-pub use self::difference::{
-    PALETTE, RARE, bold_difference, difference, fault_color, first_wrong, square_side,
-};
+pub use self::difference::{PALETTE, RARE, bold_difference, difference, fault_color, square_side};
 pub use self::exr::exr;
 pub use self::png::{canvas, png};
 pub use self::triptych::{GAP, MARK, join, panels, ring_radius, triptych, zoom};

@@ -1,9 +1,9 @@
-//! Truth, subject and difference side by side, and the same three magnified around the first wrong pixel.
-//! Two images come in, canvases go out. A ring and four ticks mark the first wrong pixel in every panel, sized
+//! Truth, subject and difference side by side, and the same three magnified around a wrong pixel, which the judge names.
+//! Two images come in, canvases go out. A ring and four ticks mark the pixel in every panel, sized
 //! to the image, so that a single wrong pixel among millions is found when the picture is shown small; the ring
 //! leaves the pixels near its centre untouched. Pairs of different sizes are refused.
 
-use super::{PictureError, bold_difference, canvas, difference, first_wrong};
+use super::{PictureError, bold_difference, canvas, difference};
 use contract::Image;
 use image::imageops::overlay;
 use image::{Rgba, RgbaImage};
@@ -14,13 +14,17 @@ pub const GAP: u32 = 8;
 pub const MARK: [u8; 4] = [255, 255, 255, 255];
 const RIM: [u8; 4] = [0, 0, 0, 255];
 
-/// Truth, subject and [`bold_difference`], each of the image's size, marked if anything differs.
+/// Truth, subject and [`bold_difference`], each of the image's size, a pixel marked in each if one is to be.
 ///
 /// # Errors
 /// [`PictureError::Layer`] and [`PictureError::Sizes`].
-pub fn panels(truth: &Image, subject: &Image) -> Result<[RgbaImage; 3], PictureError> {
+pub fn panels(
+    truth: &Image,
+    subject: &Image,
+    place: Option<[u32; 2]>,
+) -> Result<[RgbaImage; 3], PictureError> {
     let mut panels = [canvas(truth)?, canvas(subject)?, bold_difference(truth, subject)?];
-    if let Some(place) = first_wrong(truth, subject)? {
+    if let Some(place) = place {
         panels.iter_mut().for_each(|panel| mark(panel, place));
     }
     Ok(panels)
@@ -30,24 +34,23 @@ pub fn panels(truth: &Image, subject: &Image) -> Result<[RgbaImage; 3], PictureE
 ///
 /// # Errors
 /// [`PictureError::Layer`] and [`PictureError::Sizes`].
-pub fn triptych(truth: &Image, subject: &Image) -> Result<RgbaImage, PictureError> {
-    panels(truth, subject).map(|panels| join(&panels))
+pub fn triptych(truth: &Image, subject: &Image, place: Option<[u32; 2]>) -> Result<RgbaImage, PictureError> {
+    panels(truth, subject, place).map(|panels| join(&panels))
 }
 
-/// The `side` x `side` pixels around the first wrong one, each drawn as `scale` x `scale`, the wrong one framed;
-/// `None` if nothing differs. The difference is the exact one, no pixel enlarged beyond the others. What lies outside the image is transparent.
+/// The `side` x `side` pixels around one, each drawn as `scale` x `scale`, that one framed. The difference is the exact one, no pixel enlarged beyond the others. What lies outside the image is transparent.
 ///
 /// # Errors
 /// [`PictureError::Layer`] and [`PictureError::Sizes`].
 pub fn zoom(
     truth: &Image,
     subject: &Image,
+    place: [u32; 2],
     side: u32,
     scale: u32,
-) -> Result<Option<[RgbaImage; 3]>, PictureError> {
-    let Some(place) = first_wrong(truth, subject)? else { return Ok(None) };
+) -> Result<[RgbaImage; 3], PictureError> {
     let panels = [canvas(truth)?, canvas(subject)?, difference(truth, subject)?];
-    Ok(Some(panels.map(|panel| magnified(&panel, place, side.max(1), scale.max(1)))))
+    Ok(panels.map(|panel| magnified(&panel, place, side.max(1), scale.max(1))))
 }
 
 /// Panels from left to right with [`GAP`] between them.

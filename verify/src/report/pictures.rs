@@ -43,14 +43,22 @@ impl ScenePictures {
         Ok(Self { truth: Some(png(&canvas(truth)?)?), ..Self::default() })
     }
 
-    /// Adds the next subject's picture, held against the truth.
+    /// Adds the next subject's picture, held against the truth, and marked where it is wrong first, or differs.
     ///
     /// # Errors
     /// [`PictureError`] if the two differ in size or a layer does not fit its size.
-    pub fn add(&mut self, truth: &Image, subject: &Image) -> Result<(), PictureError> {
-        let panels = panels(truth, subject)?;
-        let differing = match zoom(truth, subject, ZOOM_SIDE, ZOOM_SCALE)? {
-            Some(zoom) => Some(Differing { panels: encoded(&panels)?, zoom: encoded(&zoom)? }),
+    pub fn add(
+        &mut self,
+        truth: &Image,
+        subject: &Image,
+        place: Option<[u32; 2]>,
+    ) -> Result<(), PictureError> {
+        let panels = panels(truth, subject, place)?;
+        let differing = match place {
+            Some(place) => Some(Differing {
+                panels: encoded(&panels)?,
+                zoom: encoded(&zoom(truth, subject, place, ZOOM_SIDE, ZOOM_SCALE)?)?,
+            }),
             None => None,
         };
         self.subjects.push(Some(SubjectPictures { triptych: png(&join(&panels))?, differing }));
