@@ -225,6 +225,20 @@ def is_outside(words, start, at):
     return depth == 0
 
 
+def is_bound(words, begin, part):
+    """Whether a part cannot be chosen by itself: the text of a macro must be a literal, and arguments of a format live no longer than
+    the call that they are made in."""
+    if part[0] == "format_args!":
+        return True
+    if not part[0].startswith('"'):
+        return False
+    try:
+        bracket = enclosing(words, begin, 1)
+    except NoSwitch:
+        return False
+    return bracket > 0 and len(words[bracket - 1]) > 1 and words[bracket - 1].endswith("!")
+
+
 def is_statement(words):
     if not words or not is_balanced(words) or words[0] in ITEMS | {".", "else", "}"}:
         return False
@@ -256,7 +270,8 @@ def switch(line, forms, before="", after=""):
         ends = [right(of, max(begin, len(of) - tail), is_head(of, begin)) for of in words]
         parts = [of[begin:end] for of, end in zip(words, ends)]
         rests = {tuple(of[end:]) for of, end in zip(words, ends)}
-        if all(parts) and all(map(is_one, parts)) and len(rests) == 1 and not in_parameters(words[0], begin):
+        is_whole = all(parts) and all(map(is_one, parts)) and len(rests) == 1 and not in_parameters(words[0], begin)
+        if is_whole and not any(is_bound(words[0], begin, part) for part in parts):
             break
         # Out of as many brackets as the forms close and open, or else out of the next ones around.
         out = [unmatched(of[begin:end]) for of, end in zip(words, ends)]
