@@ -114,17 +114,26 @@ fn a_sphere_behind_another_is_wrong() {
 
 type Plant = (&'static str, fn(&Bench, &mut Image), fn(&Comparison) -> u64);
 
-/// Faults, and the count that must rise by one. But for the last they have the colour that fits them.
-const PLANTS: [Plant; 9] = [
-    ("missing", |b, image| b.put(image, b.pixel(true), MISS, f32::INFINITY), |c| c.missing),
-    ("extra", |b, image| b.put(image, b.pixel(false), 3, 1.0), |c| c.extra),
-    ("extra, but no hit", |b, image| b.put(image, b.pixel(false), 3, f32::INFINITY), |c| c.extra),
-    ("swapped", |b, image| b.put(image, b.pixel(true), b.truth.ids[b.pixel(true)] ^ 1, 1.0), |c| c.swapped),
-    ("no such sphere", |b, image| b.put(image, b.pixel(true), 1_000_000, 1.0), |c| c.swapped),
-    ("t", |b, image| b.move_by(image, 1.01), |c| c.wrong_t),
-    ("t is negative", |b, image| b.move_by(image, -1.0), |c| c.wrong_t),
-    ("t is NaN", |b, image| b.move_by(image, f32::NAN), |c| c.wrong_t),
+/// Faults, and the count that must rise by one: each alone, with all else as it is in the truth, and then with the colour that fits it, so that
+/// nothing but itself gives it away.
+const PLANTS: [Plant; 13] = [
+    ("missing", |b, image| image.ids[b.pixel(true)] = MISS, |c| c.missing),
+    ("extra", |b, image| image.ids[b.pixel(false)] = 3, |c| c.extra),
+    ("swapped", |b, image| image.ids[b.pixel(true)] ^= 1, |c| c.swapped),
+    ("t", |b, image| image.t[b.pixel(true)] *= 1.01, |c| c.wrong_t),
+    ("t is NaN", |b, image| image.t[b.pixel(true)] = f32::NAN, |c| c.wrong_t),
     ("color", |b, image| image.rgba[b.pixel(true)][1] ^= 1, |c| c.wrong_color),
+    ("missing, painted", |b, image| b.put(image, b.pixel(true), MISS, f32::INFINITY), |c| c.missing),
+    ("extra, painted", |b, image| b.put(image, b.pixel(false), 3, 1.0), |c| c.extra),
+    ("extra, but no hit", |b, image| b.put(image, b.pixel(false), 3, f32::INFINITY), |c| c.extra),
+    (
+        "swapped, painted",
+        |b, image| b.put(image, b.pixel(true), b.truth.ids[b.pixel(true)] ^ 1, 1.0),
+        |c| c.swapped,
+    ),
+    ("no such sphere", |b, image| b.put(image, b.pixel(true), 1_000_000, 1.0), |c| c.swapped),
+    ("t, painted", |b, image| b.move_by(image, 1.01), |c| c.wrong_t),
+    ("t is negative", |b, image| b.move_by(image, -1.0), |c| c.wrong_t),
 ];
 
 #[test]
