@@ -1,8 +1,8 @@
 //! Does the contract refuse what no tracer can answer for, and name it? Does it let everything else in?
 
 use contract::{
-    Animation, AnimationError, Camera, CameraError, DEFAULT_LIGHT, Image, MAX_PIXELS, MAX_SIDE, MAX_SPHERES,
-    MISS, Scene, SceneError, Size, SizeError, Sphere,
+    AMBIENT, Animation, AnimationError, Camera, CameraError, DEFAULT_LIGHT, DIFFUSE, Image, MAX_PIXELS,
+    MAX_SIDE, MAX_SPHERES, MISS, Scene, SceneError, Size, SizeError, Sphere,
 };
 
 const BALL: Sphere = Sphere { center: [0.0; 3], radius: 1.0, color: [9, 8, 7] };
@@ -24,8 +24,12 @@ fn a_bad_sphere_is_refused_by_id_and_value() {
         }
         let error = scene(vec![Sphere { radius: bad, ..BALL }]).expect_err("not finite");
         assert!(matches!(error, SceneError::Radius { sphere: 0, .. }), "{error:?}");
-        let error = Scene::new(vec![], [0; 3], [0.0, bad, 0.0]).expect_err("not finite");
-        assert!(matches!(error, SceneError::Light { .. }), "{error:?}");
+        for axis in 0..3 {
+            let mut light = DEFAULT_LIGHT;
+            light[axis] = bad;
+            let error = Scene::new(vec![], [0; 3], light).expect_err("not finite");
+            assert!(matches!(error, SceneError::Light { .. }), "{error:?}");
+        }
     }
     for radius in [0.0, -0.0, -1.0, -f32::MIN_POSITIVE] {
         let error = scene(vec![BALL, BALL, Sphere { radius, ..BALL }]).expect_err("not above zero");
@@ -63,10 +67,16 @@ fn sizes_have_limits() {
     assert_eq!(Size::new(MAX_SIDE + 1, 1), large(MAX_SIDE + 1, 1));
     assert_eq!(Size::new(1, MAX_SIDE + 1), large(1, MAX_SIDE + 1));
     assert_eq!(Size::new(MAX_SIDE, MAX_SIDE), large(MAX_SIDE, MAX_SIDE));
-    for (width, height) in [(1, 1), (3, 5), (1280, 720), (7680, 4320), (MAX_SIDE, 1)] {
+    assert_eq!([MAX_SIDE as usize, MAX_PIXELS], [16_384, 16_384 * 8192]);
+    for (width, height) in [(MAX_SIDE, 8193), (8193, MAX_SIDE)] {
+        assert_eq!(Size::new(width, height), large(width, height), "a row or column too many");
+    }
+    for (width, height) in
+        [(1, 1), (3, 5), (1280, 720), (7680, 4320), (MAX_SIDE, 1), (1, MAX_SIDE), (MAX_SIDE, 8192)]
+    {
         let size = Size::new(width, height).expect("within limits");
         assert_eq!([size.width(), size.height()], [width, height]);
-        assert!(size.pixels() <= MAX_PIXELS);
+        assert_eq!(size.pixels(), width as usize * height as usize);
     }
 }
 
@@ -86,8 +96,10 @@ fn a_camera_without_a_picture_is_refused() {
     for [du, dv] in [[[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]] {
         assert!(Camera::new(eye, corner, du, dv, size).is_ok(), "{du:?}, {dv:?}");
     }
-    for bad in NOT_FINITE {
-        let v = [0.0, bad, 0.0];
+    for (bad, axis) in NOT_FINITE.into_iter().flat_map(|bad| [0, 1, 2].map(|axis| (bad, axis))) {
+        // Finite, it would be one that neither vector is parallel to.
+        let mut v = [5.0, 7.0, 11.0];
+        v[axis] = bad;
         let camera = [
             ("eye", Camera::new(v, corner, du, dv, size)),
             ("corner", Camera::new(eye, v, du, dv, size)),
@@ -109,6 +121,83 @@ fn a_camera_without_a_picture_is_refused() {
     assert!(matches!(error, CameraError::Overflow { x: 3, y: 0, .. }), "{error:?}");
     let error = Camera::new(eye, corner, du, [0.0, f32::MAX, 0.0], size).expect_err("likewise");
     assert!(matches!(error, CameraError::Overflow { x: 0, y: 3, .. }), "{error:?}");
+}
+
+/// The directions of the outermost pixels are those of rule 1, sums in its order and signs as it has them: what they overflow is refused, and
+/// nothing else.
+#[test]
+fn what_overflows_is_what_rule_1_overflows() {
+    let camera = |corner: [f32; 3], du: [f32; 3], dv: [f32; 3], width, height| {
+        Camera::new([0.0; 3], corner, du, dv, Size::new(width, height).expect("small"))
+    };
+    let (right, down) = ([1e38, 0.0, 0.0], [0.0, 1e38, 0.0]);
+    let infinite = |x, y, direction| Err(CameraError::Overflow { x, y, direction });
+    let rest = |sum: f32| sum + 0.5 * 1e38;
+    // 3.5 and 0.5 pixels from the corner.
+    assert_eq!(
+        camera([2e38, 3.0, 4.0], right, [0.0, 2.0, 0.0], 4, 1),
+        infinite(3, 0, [f32::INFINITY, 4.0, 4.0])
+    );
+    assert_eq!(
+        camera([3e38, 3.0, 4.0], right, [0.0, 2.0, 0.0], 1, 1),
+        infinite(0, 0, [f32::INFINITY, 4.0, 4.0])
+    );
+    assert_eq!(
+        camera([3.0, 2e38, 4.0], [2.0, 0.0, 0.0], down, 1, 4),
+        infinite(0, 3, [4.0, f32::INFINITY, 4.0])
+    );
+    assert_eq!(
+        camera([3.0, 3e38, 4.0], [2.0, 0.0, 0.0], down, 1, 1),
+        infinite(0, 0, [4.0, f32::INFINITY, 4.0])
+    );
+    assert_eq!(
+        camera([-3e38, -3e38, 4.0], right.map(|x| -x), down, 2, 1),
+        infinite(0, 0, [f32::NEG_INFINITY, rest(-3e38), 4.0])
+    );
+    // The column's part first: what it overflows the row's does not bring back.
+    let both = camera([3e38, 0.0, 4.0], right, [-1e38, 1.0, 0.0], 1, 1);
+    assert!(matches!(both, Err(CameraError::Overflow { x: 0, y: 0, .. })), "{both:?}");
+    for sign in [1.0, -1.0] {
+        let toward = |v: [f32; 3]| v.map(|x| sign * x);
+        let corner = toward([-3e38, -3e38, 4.0]);
+        assert!(camera(corner, toward(right), toward(down), 4, 4).is_ok(), "from {corner:?} inwards");
+    }
+}
+
+/// Nothing is too nearly parallel: products that are one number in f32 differ.
+#[test]
+fn nearly_parallel_is_not_parallel() {
+    let (size, ulp) = (Size::new(2, 2).expect("small"), f32::EPSILON);
+    for turn in 0..3 {
+        let turned = |[x, y, z]: [f32; 3]| std::array::from_fn(|i| [x, y, z][(i + turn) % 3]);
+        let (du, dv) = (turned([1.0 + ulp, 1.0, 0.0]), turned([1.0 + 2.0 * ulp, 1.0 + ulp, 0.0]));
+        assert!(Camera::new([0.0; 3], [1.0; 3], du, dv, size).is_ok(), "{du:?}, {dv:?}");
+        let twice = du.map(|x| 2.0 * x);
+        assert_eq!(
+            Camera::new([0.0; 3], [1.0; 3], du, twice, size),
+            Err(CameraError::Degenerate { du, dv: twice })
+        );
+    }
+}
+
+/// What is checked is kept as it was given, each part in its place, and the constants are those that the contract writes.
+#[test]
+fn what_goes_in_comes_out() {
+    let size = Size::new(5, 3).expect("small");
+    let [eye, corner, du, dv] = [0.0f32, 3.0, 6.0, 9.0].map(|x| [x + 1.0, -x - 2.0, x * x + 3.5]);
+    let camera = Camera::new(eye, corner, du, dv, size).expect("a camera");
+    assert_eq!([camera.eye(), camera.corner(), camera.du(), camera.dv()], [eye, corner, du, dv]);
+    assert_eq!([camera.size().width(), camera.size().height()], [5, 3]);
+    let balls = [1.0, 2.0, 3.0].map(|x| Sphere { center: [x, -x, 4.0 * x], radius: x, color: [1, 2, 3] });
+    let scene = Scene::new(balls.to_vec(), [4, 5, 6], [0.5, -0.25, 2.0]).expect("valid");
+    assert_eq!(
+        (scene.spheres(), scene.background(), scene.light()),
+        (balls.as_slice(), [4, 5, 6], [0.5, -0.25, 2.0])
+    );
+    assert_eq!(Animation::from(scene.clone()).frames(), [scene]);
+    assert_eq!([AMBIENT, DIFFUSE], [9.0 / 16.0, 7.0 / 16.0]);
+    assert_eq!(DEFAULT_LIGHT.map(|x| x * 7.0), [2.0, 3.0, 6.0]);
+    assert_eq!(MAX_SPHERES, 134_217_728);
 }
 
 #[test]
