@@ -38,7 +38,8 @@ pub fn triptych(truth: &Image, subject: &Image, place: Option<[u32; 2]>) -> Resu
     panels(truth, subject, place).map(|panels| join(&panels))
 }
 
-/// The `side` x `side` pixels around one, each drawn as `scale` x `scale`, that one framed. The difference is the exact one, no pixel enlarged beyond the others. What lies outside the image is transparent.
+/// The `side` x `side` pixels around one, each drawn as `scale` x `scale`, that one framed. The difference is the exact one, no pixel
+/// enlarged beyond the others. What lies outside the image is transparent.
 ///
 /// # Errors
 /// [`PictureError::Layer`] and [`PictureError::Sizes`].
