@@ -10,9 +10,14 @@ use verify::campaign::shard::{ShardError, Which, read, run};
 use verify::campaign::text::{bin, text};
 use verify::case::{Case, worst};
 use verify::properties::Property;
+use verify::subject::Rounding;
 use verify::verdict::Verdict;
 
+use contract::{DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
 use optimized::Level;
+use reference::{Arithmetic, Tracer};
+use verify::scenes::catalogue::Source;
+use verify::scenes::frame::Framing;
 
 const CGT: &str = env!("CARGO_BIN_EXE_cgt");
 
@@ -72,6 +77,19 @@ fn said(output: &Output) -> String {
     format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr))
 }
 
+/// How far the naive f32 tracer is off in any pixel of that frame of the plan's film, in units in the last place.
+fn largest_error(frame: usize) -> u64 {
+    let loaded = Source::parse("2juy").and_then(|source| source.load()).expect("it is bundled");
+    let size = Some(Size::new(40, 24).expect("small"));
+    let camera = loaded.camera(&Framing { size, ..Framing::default() }).expect("not degenerate");
+    let scene = &loaded.animation.frames()[frame];
+    let by = |arithmetic: Arithmetic| Tracer::new(arithmetic).render(scene, &camera).expect("small").image;
+    let (truth, naive) = (by(Arithmetic::Exact), by(Rounding::TextbookF32.naive()));
+    let both = (0..truth.t.len()).filter(|i| truth.ids[*i] == naive.ids[*i] && truth.ids[*i] != MISS);
+    let apart = both.map(|i| u64::from(truth.t[i].to_bits().abs_diff(naive.t[i].to_bits())));
+    apart.max().expect("something is seen")
+}
+
 #[test]
 fn shards_of_any_number_are_one_run() {
     let plan = plan();
@@ -87,7 +105,12 @@ fn shards_of_any_number_are_one_run() {
     assert_eq!(whole.counts["fast on 2juy: rays"], 4 * 40 * 24);
     assert!(whole.counts["pictures: hits"] > 1000, "{}", text(&whole));
     let errors = &whole.histograms["naive-f32-textbook on 2juy: largest error of t in a frame, ulp"];
-    assert_eq!(errors.iter().sum::<u64>(), 4);
+    // Bin 0 has 0, bin k what has k binary digits; the last bin is not empty.
+    let mut bins = vec![0; errors.len()];
+    for largest in (3..7).map(largest_error) {
+        bins[(u64::BITS - largest.leading_zeros()) as usize] += 1;
+    }
+    assert!(*errors == bins && bins.last() > Some(&0) && bins.len() > 4, "{errors:?}, not {bins:?}");
     let shown = (serde_json::to_string(&whole).expect("JSON"), text(&whole));
     for of in [2, 3, 7, 9] {
         let shards = all(&plan, of);
@@ -154,7 +177,12 @@ fn what_is_missing_or_double_or_of_something_else_is_refused() {
         merge(&other, std::slice::from_ref(&moved)),
         Err(MergeError::Shard(ShardError::Other { .. }))
     ));
-    for (from, to) in [("\"scalar\"", "\"neon\""), ("\"scenes\":[\"", "\"scenes\":[\"0")] {
+    let program = format!("\"program\":\"{}\"", env!("CARGO_PKG_VERSION"));
+    for (from, to) in [
+        ("\"scalar\"", "\"neon\""),
+        ("\"scenes\":[\"", "\"scenes\":[\"0"),
+        (program.as_str(), "\"program\":\"0.0.0\""),
+    ] {
         let changed = String::from_utf8(text.clone()).expect("text");
         assert!(changed.contains(from), "{changed:.300}");
         std::fs::write(&moved, changed.replacen(from, to, 1)).expect("written");
@@ -310,6 +338,61 @@ fn a_campaign_with_too_little_at_stake_has_no_verdict() {
         "{:?}",
         merged.lacking
     );
+}
+
+/// What is demanded is what must be there: one more is too much, and what was never counted is not there.
+#[test]
+fn a_demand_is_met_or_not() {
+    let with = |least: &str| {
+        let text = PLAN.replace("\"pictures: rays\" = 1000", least);
+        let whole = Plan::parse(&text).expect("a plan");
+        let only = Plan { draw: whole.draw[1..].to_vec(), film: Vec::new(), ..whole };
+        let shards = folder();
+        done(&only, "1/1", shards.path());
+        merge(&only, &places(&shards)).expect("whole")
+    };
+    let what = "certain: rays whose answer is known";
+    let counted = with(&format!("\"{what}\" = 1")).counts[what];
+    for (what, least, outcome) in [
+        (what, counted, Outcome::Held),
+        (what, counted + 1, Outcome::TooLittle),
+        ("certain: no such count", 1, Outcome::TooLittle),
+    ] {
+        let merged = with(&format!("\"{what}\" = {least}"));
+        assert_eq!(merged.outcome, outcome, "{what}: {least} of {counted}: {:?}", merged.lacking);
+        assert_eq!(merged.lacking.len(), usize::from(outcome == Outcome::TooLittle));
+    }
+}
+
+/// A film of whose frames its tracer states nothing was not judged, whatever the plan demands.
+#[test]
+fn a_film_of_which_nothing_is_stated_has_no_verdict() {
+    let desk = folder();
+    let sphere = Sphere { center: [0.0; 3], radius: 1e-30, color: [200; 3] };
+    let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let place = |name: &str| desk.path().join(name).to_string_lossy().into_owned();
+    std::fs::write(place("tiny.json"), verify::scenes::write::json(&scene.into(), None)).expect("written");
+    let (plan, shards, out) = (place("plan.toml"), place("shards"), place("merged"));
+    for (subjects, code, silent) in [
+        ("\"naive-f32-textbook\"", 3, true),
+        ("\"fast\", \"naive-f32-textbook\"", 3, true),
+        ("\"fast\"", 0, false),
+    ] {
+        let text = format!(
+            "name = \"tiny\"\nseed = 1\n[[film]]\nscene = {:?}\nframes = \"0..1\"\nsize = \"8x8\"\nsubjects = [{subjects}]\n",
+            place("tiny.json")
+        );
+        std::fs::write(&plan, text).expect("written");
+        _ = std::fs::remove_dir_all(&shards);
+        let ran = cgt(&["campaign", "run", "--plan", &plan, "--shard", "1/1", "--out", &shards]);
+        assert_eq!(ran.status.code(), Some(0), "{}", said(&ran));
+        let merged = cgt(&["campaign", "merge", "--plan", &plan, &shards, "--out", &out]);
+        assert_eq!(merged.status.code(), Some(code), "{subjects}: {}", said(&merged));
+        let told = said(&merged);
+        let named = told.contains("naive-f32-textbook on ")
+            && told.contains("no frame of which anything could be judged");
+        assert_eq!(named, silent, "{told}");
+    }
 }
 
 #[test]

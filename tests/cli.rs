@@ -236,7 +236,7 @@ fn without_a_subcommand_it_verifies_the_bundled_molecule() {
     assert_eq!(said.code, 0, "{}{}", said.out, said.err);
     assert_eq!(said.err, "", "nothing to warn of, and no bar where there is no terminal");
     let report = report(&desk.path("report"));
-    assert_eq!(report["schema_version"], 3);
+    assert_eq!(report["schema_version"], 4);
     assert_eq!(report["verdict"], "WithinBound");
     assert_eq!(report["environment"]["command_line"], format!("cgt --size {SMALL} --out report"));
     assert_eq!([&report["scenes"][0]["width"], &report["scenes"][0]["height"]], [64, 36]);
@@ -601,6 +601,9 @@ fn what_a_tracer_states_nothing_of_ends_with_3() {
     let verdict = |name: &str| &subjects.iter().find(|s| s["name"] == name).expect("judged")["verdict"];
     assert_eq!(verdict("naive-f64"), "Equal");
     assert_eq!(verdict("naive-f32-textbook"), "Undecidable");
+    let skip = ["--film", "none", "--skip", "methods,ablation,paper,figures,bench,proofs"];
+    let said = desk.run(&[&["report", "tiny.json", "--size", SMALL, "--out", "all"][..], &skip].concat());
+    assert_eq!(said.code, 3, "{}{}", said.out, said.err);
 }
 
 /// The paper's plan is wrong, says why, and ends with 1.
@@ -791,6 +794,39 @@ fn without_a_solver_nothing_is_proved() {
     let text = std::fs::read_to_string(desk.path("smt/walk.successor.smt2")).expect("it is there");
     assert!(text.starts_with("; in0 is slice\n") && text.contains("\n(check-sat)\n"), "{text}");
     assert_eq!(files(&desk.path("smt")).len(), found["lemmas"].as_array().expect("a list").len());
+}
+
+/// A solver that does not know leaves everything open, one that says yes to everything is caught: neither ends as a proof does.
+#[cfg(unix)]
+#[test]
+fn a_solver_that_lies_or_does_not_know_proves_nothing() {
+    use std::os::unix::fs::PermissionsExt;
+    let desk = Desk::new();
+    for (says, code, word) in [("unknown", 3, "not shown"), ("unsat", 1, "WRONG")] {
+        let file = desk.path("z3");
+        let text = format!("#!/bin/sh\ncase $1 in --version) echo z3 0.0 ;; *) echo {says} ;; esac\n");
+        std::fs::write(&file, text).expect("written");
+        std::fs::set_permissions(&file, std::fs::Permissions::from_mode(0o755)).expect("it may run");
+        let mut command = desk.command(CGT);
+        command.env("PATH", "").env("CGT_SOLVERS", desk.0.path());
+        let met = desk.finish(command.args(["prove", "walk"]));
+        assert_eq!(met.code, code, "{says}: {}{}", met.out, met.err);
+        assert!(met.out.contains(word), "{says}: {}", met.out);
+        let begins = |word: &str| met.out.lines().any(|line| line.starts_with(word));
+        assert!(says != "unknown" || (begins("not shown") && !begins("proved")), "{says}: {}", met.out);
+        // The report is no better for it.
+        let mut command = desk.command(CGT);
+        command.env("PATH", "").env("CGT_SOLVERS", desk.0.path());
+        let words = ["report", "uniform:50:1", "--film", "none", "--rounds", "1", "--size", "48x27"];
+        let skip = ["--skip", "methods,ablation,paper", "--out", says];
+        let met = desk.finish(command.args(words).args(skip));
+        assert_eq!(met.code, i32::from(says == "unsat"), "{says}: {}{}", met.out, met.err);
+        assert_eq!(met.out.contains("Wrong where it promised not to be"), says == "unsat", "{}", met.out);
+        let page = std::fs::read_to_string(desk.path(says).join("report.html")).expect("there is a page");
+        for chapter in ["figures", "bench", "proofs"] {
+            assert!(page.contains(&format!("<section id=\"{chapter}\"")), "{chapter} is no chapter");
+        }
+    }
 }
 
 // ---- how much it can hold ----

@@ -127,6 +127,36 @@ fn what_was_asked_and_how_fast_is_told() {
     assert!((seconds * speed / (48.0 * 32.0) - 1.0).abs() < 1e-9, "{seconds} s at {speed} a second");
 }
 
+/// Where a promise to be the naive picture is broken, that is told, marked and shown, though the pixel is the truth's own.
+#[test]
+fn a_broken_twin_is_shown_beside_its_promise() {
+    let (scene, camera) = made();
+    let by = |arithmetic: Arithmetic| Tracer::new(arithmetic).render(&scene, &camera).expect("small").image;
+    let (truth, naive) = (by(Arithmetic::Exact), by(Rounding::TextbookF32.naive()));
+    let at = (0..naive.t.len()).find(|i| naive.t[*i] != truth.t[*i] && naive.ids[*i] == truth.ids[*i]);
+    let at = at.expect("f32 rounds");
+    // The exact picture differs from the naive one there first, and nowhere from the truth.
+    let promise = Promise::EqualToNaive(Rounding::TextbookF32);
+    let exact = Spoilt { name: "better", promise, spoil: |_| () };
+    let report = told(&scene, &camera, "", &[&exact]);
+    let subject = &report.subjects[0];
+    let comparison = subject.comparison.as_ref().expect("it is compared");
+    assert_eq!((subject.verdict, comparison.wrong_ids + comparison.wrong_t), (Verdict::Wrong, 0));
+    let place = [(at % WIDTH) as u32, (at / WIDTH) as u32];
+    assert_eq!(comparison.first_wrong, Some(place));
+    let account = subject.first_wrong.as_deref().expect("it is told");
+    let line = |head: &str| account.lines().find(|line| line.starts_with(head)).expect(head).to_owned();
+    let bits = |x: f32| format!("0x{:08x}", x.to_bits());
+    for (head, t) in [("truth ", truth.t[at]), ("promised ", naive.t[at]), ("subject ", truth.t[at])] {
+        assert!(line(head).contains(&bits(t)), "{head}: {account}");
+    }
+    // Who is as promised has no such line, though it differs from the truth.
+    let own = Naive(Rounding::TextbookF32);
+    let report = told(&scene, &camera, "", &[&own]);
+    let account = report.subjects[0].first_wrong.as_deref().expect("it rounds");
+    assert!(!account.contains("promised"), "{account}");
+}
+
 /// Whoever is called as the naive tracer is, or comes before it, a promise to be equal to it is held against the naive tracer itself.
 #[test]
 fn a_twin_is_the_naive_tracers_own() {

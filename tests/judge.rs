@@ -418,6 +418,9 @@ fn a_twin_differs_by_one_t() {
         assert!(explained || rounding == Rounding::TextbookF64, "{rounding:?}: {rounded:?}");
         let judgement = bench.judge(&image, Promise::EqualToNaive(rounding), Some(&naive));
         assert_eq!(judgement.verdict, Verdict::Wrong, "{rounding:?}: {judgement:?}");
+        // What is told is where the promise is broken, though the truth differs elsewhere, and earlier.
+        let first = judgement.comparison.and_then(|comparison| comparison.first_wrong);
+        assert_eq!(first.map(|[x, y]| y as usize * 96 + x as usize), Some(i), "{rounding:?}");
     }
 }
 
@@ -436,4 +439,56 @@ fn what_the_form_states_nothing_of_is_undecidable() {
     let unstated = judgement.comparison.as_ref().map(|c| (c.undecidable, c.unexplained));
     assert_eq!((judgement.verdict, unstated), (Verdict::Undecidable, Some((hits, 0))), "{judgement:?}");
     assert!(hits > 4);
+    // Nor is a hit on a sphere of which nothing is stated, the true one or another.
+    let twins = Scene::new(vec![ball; 2], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let mut second = truth.clone();
+    second.ids.iter_mut().filter(|id| **id == 0).for_each(|id| *id = 1);
+    let judgement = judge(&twins, &camera, &truth, &second, Promise::Rounded(Rounding::TextbookF32), None);
+    let unstated = judgement.comparison.as_ref().map(|c| (c.undecidable, c.unexplained));
+    assert_eq!((judgement.verdict, unstated), (Verdict::Undecidable, Some((hits, 0))), "{judgement:?}");
+}
+
+/// One sphere of which nothing is stated excuses nobody who missed another, or saw what stands behind it; in whatever order they are.
+#[test]
+fn a_speck_excuses_nothing_else() {
+    let speck = Sphere { center: [50.0, 0.0, 0.0], radius: 1e-30, color: [9; 3] };
+    let ball = |z: f32| Sphere { center: [0.0, 0.0, z], radius: 1.0, color: [90; 3] };
+    let size = Size::new(8, 8).expect("small");
+    let camera = Camera::new([0.0; 3], [-0.04, 0.04, -1.0], [0.01, 0.0, 0.0], [0.0, -0.01, 0.0], size);
+    let camera = camera.expect("a camera");
+    for order in [[0, 1, 2], [2, 1, 0], [1, 0, 2], [1, 2, 0]] {
+        let spheres = order.map(|k| [speck, ball(-5.0), ball(-9.0)][k]);
+        let scene = Scene::new(spheres.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
+        let by = |scene: &Scene| Tracer::new(Arithmetic::Exact).render(scene, &camera).expect("small").image;
+        let truth = by(&scene);
+        let rounded = Promise::Rounded(Rounding::TextbookF32);
+        let judged = |image: &Image| judge(&scene, &camera, &truth, image, rounded, None);
+        assert_eq!(judged(&truth).verdict, Verdict::Equal, "{order:?}");
+        let nothing = judged(&Image::new(size, [0; 3]).expect("small"));
+        let counts = nothing.comparison.as_ref().map(|c| (c.unexplained, c.undecidable));
+        assert_eq!((nothing.verdict, counts), (Verdict::Wrong, Some((64, 0))), "{order:?}: {nothing:?}");
+        // What stands behind, as it is seen where nothing is before it.
+        let mut hidden = spheres.to_vec();
+        hidden[order.iter().position(|k| *k == 1).expect("it is there")].center[0] = 50.0;
+        let behind = judged(&by(&Scene::new(hidden, [0; 3], DEFAULT_LIGHT).expect("valid")));
+        let counts = behind.comparison.as_ref().map(|c| (c.unexplained, c.undecidable));
+        assert_eq!((behind.verdict, counts), (Verdict::Wrong, Some((64, 0))), "{order:?}: {behind:?}");
+        // Nor who saw the speck itself, unless it could be before the ball.
+        let id = order
+            .iter()
+            .position(|k| *k == 0)
+            .map(|at| u32::try_from(at).expect("small"))
+            .expect("it is there");
+        let seen = |t: f32| {
+            let mut image = truth.clone();
+            let color = shade(&scene, &Ray::of_pixel(&camera, 1, 1), Hit { id, t });
+            (image.ids[9], image.t[9], image.rgba[9]) = (id, t, color);
+            judged(&image).verdict
+        };
+        assert_eq!(
+            [seen(truth.t[9]), seen(truth.t[9] + 1.0)],
+            [Verdict::Undecidable, Verdict::Wrong],
+            "{order:?}"
+        );
+    }
 }

@@ -191,6 +191,21 @@ fn planted_faults_are_found() {
     }
 }
 
+/// Of a large picture as many pixels are asked as was said, and they lie anywhere: a fault in all but the first row is met.
+#[test]
+fn a_sample_lies_anywhere() {
+    let (scene, camera) = made("uniform:40000:1", &size(400, 225));
+    let seed = seed();
+    let found = narrowed(&scene, &camera, seed).expect("it fits");
+    assert!((256..400 * 225).contains(&found.sampled), "{} rays: not a sample", found.sampled);
+    let mut image = found.image;
+    image.t[400..].iter_mut().for_each(|t| *t = t.next_down());
+    let Err(NarrowedError::Differs { x, y, .. }) = sample(&scene, &camera, &image, seed) else {
+        panic!("CGT_SEED={seed}: no pixel of the sample lies below the first row")
+    };
+    assert!(x < 400 && (1..225).contains(&y), "({x}, {y})");
+}
+
 /// A sphere that is kept for every tile, and one of a higher id that touches it from within where the middle ray meets both at once.
 #[test]
 fn ties_with_what_is_everywhere_go_to_the_lowest_id() {

@@ -5,7 +5,7 @@
 #[path = "../verify/examples/own_tracer.rs"]
 mod own_tracer;
 
-use contract::{Camera, MISS, Scene, Size};
+use contract::{Animation, Camera, DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
 use serde_json::Value;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
@@ -13,8 +13,8 @@ use std::process::{Command, Output};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
-use verify::case::Case;
-use verify::foreign::{Foreign, ForeignError, PROMISES, serve, wire};
+use verify::case::{Asked, Case};
+use verify::foreign::{Foreign, ForeignError, PROMISES, method, serve, wire};
 use verify::judge::judge;
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
@@ -257,7 +257,23 @@ fn the_clock_runs_from_go_to_done() {
             if counts { took } else { left } >= Duration::from_millis(300),
             "{name}: {took:?}, else {left:?}"
         );
+        // In charts too.
+        let method = method(&tracer, 1);
+        let mut contestant = method.contestant(&scene, &camera).expect("it begins");
+        let start = Instant::now();
+        let took = contestant.frame(&scene, &camera).expect("a picture").took.expect("it is timed");
+        let left = start.elapsed() - took;
+        assert!(
+            if counts { took } else { left } >= Duration::from_millis(300),
+            "{name} in a chart: {took:?}, else {left:?}"
+        );
     }
+    // How many threads it may have it is told.
+    let says = "import os, sys\nsys.stdin.buffer.read(68 + 32 * 24)\nsaid = os.environ['CGT_THREADS'].encode()\n\
+                os.write(1, b'e' + len(said).to_bytes(4, 'little') + said)\n";
+    let error = foreign(&python(desk.path(), "threads.py", says)).render(&scene, &camera, 13, &|| ());
+    let error = error.expect_err("it refuses");
+    assert_eq!(error.downcast_ref(), Some(&ForeignError::Refused { said: "13".into() }));
 }
 
 /// A program that would trace beforehand finds nothing to trace: until it has said that it has read the rays, no sphere has come.
@@ -298,6 +314,54 @@ fn a_case_of_others_is_asked_of_ones_own() {
         let output = cgt(desk.path(), &["replay", &file, "--subject-cmd", &command, "--promise", "f64"]);
         assert_eq!(output.status.code(), Some(0), "{name}: {}", said(&output));
         assert!(said(&output).contains("as it should be (Undecidable)"), "{name}: {}", said(&output));
+    }
+}
+
+/// Pictures that are right are not enough: a tracer that answers otherwise once the scene is mirrored is not as it should be.
+#[test]
+fn a_tracer_at_odds_with_itself_is_not_as_it_should_be() {
+    if !has("python3") {
+        return;
+    }
+    let desk = desk();
+    let ball = |x: f32, z: f32| Sphere { center: [x, 0.0, z], radius: 1.0, color: [90; 3] };
+    let scene = Scene::new(vec![ball(0.0, -4.0), ball(1.0, -9.0)], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(4, 4).expect("small");
+    let camera = Camera::new([0.25, 0.5, 2.0], [-0.5, 0.5, -1.0], [0.25, 0.0, 0.0], [0.0, -0.25, 0.0], size);
+    let case = Case {
+        frames: Animation::from(scene),
+        camera: camera.expect("a camera"),
+        asked: Asked::Naive(NAIVE[0]),
+        expected: Verdict::Equal,
+        pixel: None,
+        why: "two balls, one before the other".into(),
+    };
+    std::fs::write(desk.path().join("balls.json"), case.to_json()).expect("it is written");
+    let sees = |one: &str| broken("0 < t < best[1]", &format!("0 < t < best[1] and (ex == 0.25 or {one})"));
+    // Of twins in f32 whoever is first in the list is seen: right where that is the nearer one.
+    let twin = |k: u16| Sphere { radius: 1.0 - f32::from(k) * f32::EPSILON / 2.0, ..ball(0.0, -5.0) };
+    let four = Scene::new((0..4).map(twin).collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let one = Size::new(1, 1).expect("small");
+    let axis = Camera::new([0.0; 3], [-0.25, 0.25, -1.0], [0.5, 0.0, 0.0], [0.0, -0.5, 0.0], one);
+    let twins = Case { frames: Animation::from(four), camera: axis.expect("a camera"), ..case.clone() };
+    std::fs::write(desk.path().join("twins.json"), twins.to_json()).expect("it is written");
+    let rounds = broken("0 < t < best[1]", "(lambda of: 0 < of[0] < of[1])(array(\"f\", [t, best[1]]))");
+    let command = python(desk.path(), "rounds.py", &rounds);
+    let output = cgt(desk.path(), &["replay", "twins.json", "--subject-cmd", &command, "--promise", "exact"]);
+    let told = said(&output);
+    assert!(told.contains("case       Equal, NOT as it should be"), "{told}");
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    for (name, text, code, word) in [
+        ("sound.py", client(), 0, "as it should be (Equal)"),
+        ("odd.py", sees("i > 0"), 1, "NOT as it should be (Equal)"),
+    ] {
+        let command = python(desk.path(), name, &text);
+        let output =
+            cgt(desk.path(), &["replay", "balls.json", "--subject-cmd", &command, "--promise", "exact"]);
+        let told = said(&output);
+        assert_eq!(output.status.code(), Some(code), "{name}: {told}");
+        assert!(told.contains("case       Equal, ") && told.contains(word), "{name}: {told}");
+        assert_eq!(told.contains("relations  hold"), code == 0, "{name}: {told}");
     }
 }
 

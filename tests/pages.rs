@@ -138,7 +138,7 @@ fn page() -> Made<String> {
     let mut pictures = Vec::new();
     for _ in &scenes {
         let mut set = ScenePictures::new(&truth)?;
-        set.add(&truth, &wrong, Some([58, 1]))?;
+        set.add(("Truth", &truth), &wrong, Some([58, 1]))?;
         pictures.push(set);
     }
     let report = Report {
@@ -148,6 +148,7 @@ fn page() -> Made<String> {
         environment: environment(),
         scenes,
         claims: verify::claims::claims(),
+        broken: Vec::new(),
         absent: Vec::new(),
     };
     Ok(html(&report, &pictures, &parts()?)?)

@@ -335,6 +335,54 @@ fn solvers_are_not_believed() {
     }
 }
 
+/// A step that is false, and a conclusion that follows from it.
+struct Stepped;
+
+impl Theorem for Stepped {
+    fn state<M: Machine, K: Machine<F = M::F, I = M::I, B = M::B>>(
+        &self,
+        m: M,
+        _: K,
+        ask: &mut impl Ask<M>,
+    ) -> Statement<M::B> {
+        let x = ask.number("x");
+        let wrong = m.lt(x, x);
+        Statement {
+            steps: vec![("it is below itself", wrong)],
+            assume: vec![],
+            conclude: vec![("so it is", wrong)],
+        }
+    }
+}
+
+/// What follows from a step that nobody has shown is not shown, though a solver says that it follows.
+#[test]
+fn a_step_that_is_not_shown_shows_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let lemma = Lemma {
+        name: "stepped",
+        words: "",
+        kernel: "",
+        numbers: Numbers::Float,
+        whole: false,
+        lanes: Lanes::Any,
+        expected: Expected::Holds,
+        long: false,
+        witness: &[("x", 0x3f80_0000)],
+        harmless: &[],
+        statement: Box::new(Stepped),
+    };
+    let effort = Effort { proof: Duration::from_secs(5), ..Effort::EVERYDAY };
+    for first in ["unknown", "sat"] {
+        let flag = folder.path().join(first);
+        let says =
+            format!("if [ -e '{0}' ]; then echo unsat; else : > '{0}'; echo {first}; fi", flag.display());
+        let found = prove(&lemma, &[liar(&folder, &says)], &effort, &mut generator(seed(), 5));
+        let told = matches!(&found.outcome, Outcome::NotShown(why) if why.contains("the step that it is below itself"));
+        assert!(told, "after {first}: {found:?}");
+    }
+}
+
 /// Work whose doors are counted.
 fn doors(m: Symbolic<'_, 1>, x: &[Term], number: usize) -> u32 {
     let mut taken = 0;

@@ -2,8 +2,12 @@
 //! Each run prints its seed and what was at stake, and has no verdict if that was too little. `CGT_PROPERTY_CASES` sets how many cases
 //! each property draws.
 
-use verify::properties::Property;
+use contract::{Animation, Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
+use reference::{Arithmetic, Tracer};
+use verify::case::Case;
 use verify::properties::relations::RELATIONS;
+use verify::properties::stakes::Stakes;
+use verify::properties::{Property, judged};
 use verify::seed::{count, seed};
 
 /// Runs a property and asks whether enough was at stake.
@@ -20,6 +24,85 @@ fn hold(everyday: u64, least: &[(&str, u64)], property: Property) {
         "{name}: no verdict, too little was at stake: {}; CGT_SEED={seed}",
         lacking.join(", ")
     );
+}
+
+/// A scene whose rays can be counted by hand: one through the middle of a ball, one along its rim, one past it.
+#[test]
+fn what_is_at_stake_is_counted() {
+    let ball = |center: [f32; 3], radius: f32| Sphere { center, radius, color: [9; 3] };
+    // The sine of the angle to the rim is 1/20.
+    let rim = (1.0 / 399f64.sqrt()) as f32;
+    let size = Size::new(3, 1).expect("small");
+    let camera = Camera::new([0.0; 3], [-rim / 2.0, -0.005, -1.0], [rim, 0.0, 0.0], [0.0, 0.01, 0.0], size)
+        .expect("a camera");
+    let counted = |spheres: &[Sphere]| {
+        let scene = Scene::new(spheres.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
+        let picture = Tracer::new(Arithmetic::Exact).render(&scene, &camera).expect("small").image;
+        let mut stakes = Stakes::default();
+        stakes.add_frame(&scene, &camera, &picture);
+        stakes
+    };
+    let far = ball([0.0, 0.0, -20.0], 1.0);
+    let all = [
+        "frames",
+        "rays",
+        "rays along -z",
+        "rays along +z",
+        "rays near tangents",
+        "rays from inside a sphere",
+        "rays from a surface",
+        "rays to spheres over 1,000 radii away",
+    ];
+    for (what, spheres, due) in [
+        ("a ball", &[far][..], [1, 3, 3, 0, 1, 0, 0, 0]),
+        ("a ball twice", &[far, far], [1, 3, 3, 0, 1, 0, 0, 0]),
+        ("a ball about the eye", &[ball([0.0, 0.0, -1.0], 2.0)], [1, 3, 3, 0, 0, 3, 0, 0]),
+        ("a ball that touches the eye", &[ball([0.0, 0.0, -1.0], 1.0)], [1, 3, 3, 0, 0, 0, 3, 0]),
+        ("a speck", &[ball([9.0, 0.0, -20.0], 0.01)], [1, 3, 3, 0, 0, 0, 0, 3]),
+    ] {
+        let stakes = counted(spheres);
+        assert_eq!(all.map(|what| stakes.count(what)), due, "{what}: {stakes}");
+        // Whoever hits the twin hits it at the same t.
+        let tied = if spheres.len() == 2 { stakes.count("hits") } else { 0 };
+        assert_eq!(stakes.count("rays with an equal second hit"), tied, "{what}: {stakes}");
+        assert!(stakes.count("hits") > 0 || what == "a speck", "{what}: {stakes}");
+    }
+}
+
+#[test]
+fn what_is_lacking_is_what_is_less_than_the_least() {
+    let mut stakes = Stakes::default();
+    stakes.add("rays", 5);
+    let cases: [&[(&str, u64)]; 4] =
+        [&[("rays", 5)], &[("rays", 6)], &[("hits", 1)], &[("hits", 1), ("rays", 9)]];
+    for (least, lacking) in cases.into_iter().zip([0, 1, 1, 2]) {
+        assert_eq!(stakes.lacking(least).len(), lacking, "{least:?}: {:?}", stakes.lacking(least));
+    }
+    assert_eq!(stakes.lacking(&[("rays", 6)]), ["rays: 5 of at least 6"]);
+}
+
+/// A second frame is held to the same promise as the first.
+#[test]
+fn what_breaks_in_a_later_frame_is_a_failure() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/cases/paper-eight-corners-miss-the-middle.json");
+    let case = Case::from_json(&std::fs::read(file).expect("it is there")).expect("readable");
+    let scene = case.frames.frames()[0].clone();
+    // Behind the eye nothing of it is lost.
+    let eye = case.camera.eye();
+    let mut spheres = scene.spheres().to_vec();
+    for sphere in &mut spheres {
+        sphere.center = [0, 1, 2].map(|i| 2.0 * eye[i] - sphere.center[i]);
+    }
+    let behind = Scene::new(spheres, scene.background(), scene.light()).expect("valid");
+    let of = |frames: &[&Scene]| {
+        let frames = frames.iter().map(|scene| Scene::clone(scene)).collect();
+        judged(&Case { frames: Animation::new(frames).expect("frames"), ..case.clone() })
+    };
+    assert!(of(&[&behind, &behind]).is_ok_and(|stakes| stakes.count("frames") == 2));
+    for (frames, which) in [([&scene, &behind], "frame 0 by"), ([&behind, &scene], "frame 1 by")] {
+        let failure = of(&frames).expect_err(which);
+        assert!(failure.message.starts_with(which), "{}", failure.message);
+    }
 }
 
 #[test]

@@ -121,7 +121,7 @@ fn report() -> Result<Report, Box<dyn Error>> {
     Ok(Report {
         schema_version: SCHEMA_VERSION,
         title: "A <title>".to_owned(),
-        verdict: overall(&scenes, &[]),
+        verdict: overall(&scenes, &[], &[]),
         environment: Environment {
             program: "cgt 0.0".to_owned(),
             target: "made-up".to_owned(),
@@ -135,6 +135,7 @@ fn report() -> Result<Report, Box<dyn Error>> {
         },
         scenes,
         claims: claims.collect(),
+        broken: Vec::new(),
         absent: vec![Absent { judge: "Embree".to_owned(), why: "it is not here ".repeat(20), needed: false }],
     })
 }
@@ -150,8 +151,8 @@ fn pictures(report: &Report) -> Result<Vec<ScenePictures>, Box<dyn Error>> {
         for subject in &scene.subjects {
             match subject.verdict {
                 Verdict::NotJudged => set.skip(),
-                Verdict::Wrong => set.add(&truth, &wrong, Some([58, 1]))?,
-                _ => set.add(&truth, &truth, None)?,
+                Verdict::Wrong => set.add(("Truth", &truth), &wrong, Some([58, 1]))?,
+                _ => set.add(("Truth", &truth), &truth, None)?,
             }
         }
         sets.push(set);
@@ -167,7 +168,7 @@ fn film() -> Result<Report, Box<dyn Error>> {
         Ok(SceneReport { frame: number, frames: 9, outside: Vec::new(), ..scene(HOSTILE, subjects)? })
     };
     let scenes = vec![frame(2)?, frame(3)?, frame(4)?];
-    Ok(Report { verdict: overall(&scenes, &[]), scenes, ..report()? })
+    Ok(Report { verdict: overall(&scenes, &[], &[]), scenes, ..report()? })
 }
 
 /// The script turns the frames, the policy lets in that script alone, and without it the first frame is seen.
@@ -201,6 +202,111 @@ fn frames_of_one_scene_are_a_film() -> Outcome {
     Ok(())
 }
 
+/// A film of which one frame is wrong is wrong, and its speed is that of all its pixels in all its time.
+#[test]
+fn a_film_is_its_worst_frame_and_its_whole_time() -> Outcome {
+    let frame = |number: usize, verdict: Verdict, seconds: f64| -> Result<SceneReport, Box<dyn Error>> {
+        let one = SubjectReport { seconds: Some(seconds), ..subject("one", verdict) };
+        Ok(SceneReport { frame: number, frames: 9, outside: Vec::new(), ..scene("reel", vec![one])? })
+    };
+    let mut scenes = vec![
+        frame(2, Verdict::Equal, 0.000_5)?,
+        frame(3, Verdict::Wrong, 0.001)?,
+        frame(4, Verdict::WithinBound, 0.001_5)?,
+    ];
+    if let Some(comparison) = &mut scenes[2].subjects[0].comparison {
+        (comparison.wrong_t, comparison.wrong_color) = (17, 29);
+    }
+    scenes.push(scene("bar", vec![subject("one", Verdict::Equal)])?);
+    let report = Report { verdict: overall(&scenes, &[], &[]), scenes, ..report()? };
+    let told = text(&report, false);
+    let line = told.lines().find(|line| line.contains("#2-4")).ok_or("a film has a line")?;
+    let words: Vec<&str> = line.split_whitespace().collect();
+    // 3 · 3072 pixels in 3 ms.
+    assert_eq!(words, ["reel", "#2-4", "one", "≠", "wrong", "1", "17", "30", "0", "3.07"], "{told}");
+    let page = html(&report, &pictures(&report)?, &[])?;
+    let row = page.split_once("<a href=\"#scene-1\">").and_then(|(_, rest)| rest.split("</tr>").next());
+    let row = row.ok_or("a film has a row in the overview")?;
+    assert!(
+        row.contains("reel, 3 frames") && row.contains("seal wrong") && !row.contains("seal equal"),
+        "{row}"
+    );
+    // Every frame has its verdict, and its own three counts.
+    let every = page.split("Every frame</summary>").nth(1).and_then(|rest| rest.split("</table>").next());
+    let rows: Vec<&str> =
+        every.ok_or("all frames are told")?.split("<tr><th scope=\"row\">").skip(1).collect();
+    for (row, (class, counts)) in
+        rows.iter().zip([("equal", [0, 0, 0]), ("wrong", [1, 0, 1]), ("within", [0, 17, 29])])
+    {
+        let counts = counts.map(|count| format!("<td>{count}</td>")).concat();
+        assert!(row.contains(&format!("seal {class}")) && row.contains(&counts), "{row}");
+    }
+    assert_eq!(rows.len(), 3);
+    assert!(page.contains("one: within bound, 0 wrong ids, 17 wrong t"), "it is told below its picture");
+    Ok(())
+}
+
+/// Frames of one name by other tracers, of another size or out of order are told by themselves: a row is of one list of tracers.
+#[test]
+fn frames_by_other_tracers_are_another_film() -> Outcome {
+    let frame = |number: usize, subjects: &[(&str, Verdict)]| -> Result<SceneReport, Box<dyn Error>> {
+        let subjects = subjects.iter().map(|(name, verdict)| subject(name, *verdict)).collect();
+        Ok(SceneReport { frame: number, frames: 9, outside: Vec::new(), ..scene("reel", subjects)? })
+    };
+    let (right, liar) = (("right", Verdict::Equal), ("liar", Verdict::Wrong));
+    let alone = frame(0, &[("other", Verdict::WithinBound), right])?;
+    let small = SceneReport { width: 32, ..frame(1, &[right, liar])? };
+    for (scenes, items) in [
+        (
+            vec![alone.clone(), frame(0, &[right, liar])?, frame(1, &[right, liar])?],
+            ["reel, frame 0", "reel, 2 frames"],
+        ),
+        (vec![frame(0, &[right, liar])?, frame(1, &[liar, right])?], ["reel, frame 0", "reel, frame 1"]),
+        (vec![frame(0, &[right, liar])?, small], ["reel, frame 0", "reel, frame 1"]),
+        (vec![frame(1, &[right, liar])?, frame(1, &[right, liar])?], ["reel, frame 1", "reel, frame 1"]),
+        (vec![frame(2, &[right, liar])?, frame(1, &[right, liar])?], ["reel, frame 2", "reel, frame 1"]),
+    ] {
+        let report = Report { scenes, ..report()? };
+        let page = html(&report, &[], &[])?;
+        let overview =
+            page.split("<table class=\"matrix\">").nth(1).and_then(|rest| rest.split("</table>").next());
+        let overview = overview.ok_or("there is an overview")?;
+        let columns: Vec<&str> = overview.split("<th scope=\"col\">").skip(2).collect();
+        let rows: Vec<&str> = overview.split("<tr><th scope=\"row\">").skip(1).collect();
+        let names: Vec<&str> = rows.iter().filter_map(|row| row.split(['>', '<']).nth(2)).collect();
+        assert_eq!(names, items);
+        for row in rows {
+            for (column, cell) in columns.iter().zip(row.split("<td>").skip(1)) {
+                for (name, class) in [("right", "equal"), ("liar", "wrong"), ("other", "within")] {
+                    let other = column.starts_with(name) && cell.contains("seal") && !cell.contains(class);
+                    assert!(!other, "{items:?}: under {name}: {cell}");
+                }
+            }
+        }
+        let told = text(&report, false);
+        assert_eq!(told.lines().any(|line| line.contains("#0-1")), items[1].contains("2 frames"), "{told}");
+    }
+    Ok(())
+}
+
+/// What other chapters found broken makes the whole wrong and is told wherever the verdict is.
+#[test]
+fn what_other_chapters_found_broken_is_told() -> Outcome {
+    let scenes =
+        vec![SceneReport { outside: Vec::new(), ..scene("bar", vec![subject("s", Verdict::Equal)])? }];
+    let broken = vec!["<exact> at 100 radii".to_owned()];
+    assert_eq!(overall(&scenes, &[], &[]), Verdict::Equal);
+    let report = Report { verdict: overall(&scenes, &broken, &[]), scenes, broken, ..report()? };
+    assert_eq!(report.verdict, Verdict::Wrong);
+    let page = html(&report, &pictures(&report)?, &[])?;
+    assert!(page.contains("&#60;exact&#62; at 100 radii") && page.contains("A promise is broken"));
+    assert!(!page.contains("At least one pixel is wrong"), "no pixel of these pictures is");
+    let told = text(&report, false);
+    assert!(told.contains("<exact> at 100 radii") && told.trim_end().ends_with("≠ wrong"), "{told}");
+    assert!(json(&report)?.contains("<exact> at 100 radii"));
+    Ok(())
+}
+
 #[test]
 fn a_known_fault_is_shown_and_not_counted() -> Outcome {
     let report = film()?;
@@ -210,7 +316,7 @@ fn a_known_fault_is_shown_and_not_counted() -> Outcome {
     assert!(page.contains("<b>a fault</b> is shown as a known fault"));
     let mut faults = report.scenes;
     faults.iter_mut().for_each(|scene| drop(scene.subjects.remove(0)));
-    assert_eq!(overall(&faults, &[]), Verdict::NotJudged, "known faults alone are no run");
+    assert_eq!(overall(&faults, &[], &[]), Verdict::NotJudged, "known faults alone are no run");
     Ok(())
 }
 
@@ -306,7 +412,8 @@ fn page_says_all_it_was_told() -> Outcome {
         "Embree",
         "1\u{202f}234\u{202f}567",
         "58, 1",
-        "123",
+        "<td>123</td>",
+        "wrong per million: ids 326, t 0, colours 326",
         &bits,
         &seed,
         "2026-01-02T03:04:05Z",
@@ -330,7 +437,7 @@ fn every_picture_on_the_page_has_words() -> Outcome {
 #[test]
 fn an_empty_report_is_not_judged() -> Outcome {
     let empty = Report { scenes: Vec::new(), claims: Vec::new(), absent: Vec::new(), ..report()? };
-    assert_eq!(overall(&empty.scenes, &[]), Verdict::NotJudged);
+    assert_eq!(overall(&empty.scenes, &[], &[]), Verdict::NotJudged);
     assert!(html(&empty, &[], &[])?.contains("</html>"));
     assert!(text(&empty, false).contains("subject"));
     Ok(())
@@ -342,7 +449,7 @@ fn the_worst_verdict_is_the_verdict() -> Outcome {
     let run = |verdicts: &[Verdict]| -> Result<Verdict, Box<dyn Error>> {
         let subjects = verdicts.iter().map(|verdict| subject("s", *verdict)).collect();
         let quiet = |scene: SceneReport| SceneReport { outside: Vec::new(), ..scene };
-        Ok(overall(&[quiet(scene("a", subjects)?), quiet(scene("b", vec![subject("s", Equal)])?)], &[]))
+        Ok(overall(&[quiet(scene("a", subjects)?), quiet(scene("b", vec![subject("s", Equal)])?)], &[], &[]))
     };
     assert_eq!(run(&[])?, Equal);
     assert_eq!(run(&[Equal, WithinBound])?, WithinBound);
@@ -352,7 +459,7 @@ fn the_worst_verdict_is_the_verdict() -> Outcome {
     let with = |outside: &[Hearing], needed: bool| -> Result<Verdict, Box<dyn Error>> {
         let scene = SceneReport { outside: outside.to_vec(), ..scene("a", vec![subject("s", Equal)])? };
         let absent = Absent { judge: "j".to_owned(), why: String::new(), needed };
-        Ok(overall(&[scene], &[absent]))
+        Ok(overall(&[scene], &[], &[absent]))
     };
     assert_eq!(with(&[], false)?, Equal);
     assert_eq!(with(&[], true)?, NotJudged, "a judge that was asked for is absent");
@@ -368,7 +475,7 @@ fn the_worst_verdict_is_the_verdict() -> Outcome {
 #[test]
 fn json_begins_with_its_schema_and_holds_the_data() -> Outcome {
     let text = json(&report()?)?;
-    assert!(text.starts_with("{\n  \"schema_version\": 3,"));
+    assert!(text.starts_with("{\n  \"schema_version\": 4,"));
     let data: serde_json::Value = serde_json::from_str(&text)?;
     assert_eq!(data["verdict"], "Wrong");
     assert_eq!(data["scenes"][1]["name"], HOSTILE);
@@ -525,7 +632,7 @@ fn witnesses_alone_are_no_run() -> Outcome {
     let scene = scene("a", Vec::new())?;
     assert!(!scene.outside.is_empty());
     assert_eq!(
-        overall(&[SceneReport { outside: hearings()[..1].to_vec(), ..scene }], &[]),
+        overall(&[SceneReport { outside: hearings()[..1].to_vec(), ..scene }], &[], &[]),
         Verdict::NotJudged
     );
     Ok(())

@@ -10,7 +10,7 @@ use optimized::host::Scalar;
 use optimized::machine::{Chore, LANES, Machine, Site, Stage};
 use optimized::plan::{Culling, Loop, Resolution, Voxelizer};
 use optimized::walk::{Cursor, Rectangle, Visitor, step, walk};
-use optimized::{Events, Level, Plan, Tracer};
+use optimized::{Event, Events, Level, Plan, Tracer};
 use rand::{Rng, RngExt};
 use std::collections::BTreeSet;
 use verify::scenes::catalogue::Source;
@@ -28,7 +28,7 @@ use verify::spu::predict::{Policy, Predictor, SITES};
 use verify::spu::recorder::{Booked, STAGES, Tally, cycles, record};
 use verify::spu::sequence::{Operand, TABLE};
 use verify::spu::store::{Buffers, CAPACITY, LocalStoreFull, Map, code_bytes, queue_bytes};
-use verify::spu::survey::{Input, SurveyError, survey};
+use verify::spu::survey::{Input, Rate, SurveyError, survey};
 use verify::visible::listed;
 
 const M: Spu<Scalar> = Spu(Scalar);
@@ -794,7 +794,20 @@ fn a_survey_agrees_with_the_tracer() {
             site.mispredicts.iter().take(2).all(|n| site.best <= *n) && 2 * site.best <= site.executed,
             "{site:?}"
         );
+        assert_eq!(site.best, site.taken.min(site.executed - site.taken), "{site:?}");
     }
+    // A second buffer hides transfers, and costs nothing.
+    let more = |rate: &Rate| [0, 1].map(|i| rate.frames_per_second_double[i] / rate.frames_per_second[i]);
+    let more: Vec<f64> = found.rates.iter().flat_map(more).collect();
+    assert!(more.iter().all(|more| *more >= 1.0) && more.iter().any(|more| *more > 1.0), "{more:?}");
+    // Cells are counted, not the ids that each of them drops.
+    let full = with.events.first().iter().filter_map(|event| match event {
+        Event::CellFull { cell, .. } => Some(*cell),
+        _ => None,
+    });
+    let (ids, cells) = (full.clone().count(), full.collect::<BTreeSet<_>>().len());
+    assert_eq!(found.lists.overfull, cells as u64);
+    assert!(ids > cells && cells > 0, "no cell drops two: {ids} ids, {cells} cells");
     let stages = &found.rates[0].stages;
     assert_eq!(stages.len(), 7, "six stages and transfers");
     let sum: f64 = stages.iter().map(|stage| stage.per_frame[1]).sum();

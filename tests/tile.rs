@@ -443,6 +443,78 @@ fn candidates_of_every_round_are_met() {
     }
 }
 
+/// Of many spheres those much larger than the others are in no cell but are shown to every tile; where they alone fill a round, no slice of the
+/// grid has been looked at yet, and what is small may be before them.
+#[test]
+fn small_spheres_before_many_large_ones_are_seen() {
+    let (seed, tries) = (seed(), count("CGT_TILE_LARGE", 6));
+    let side = 24;
+    let size = Size::new(side, side).expect("small");
+    let before: u64 = (0..tries)
+        .into_par_iter()
+        .map(|i| {
+            let mut rng = generator(seed, i);
+            let number = 14_336 + rng.random_range(0..4000);
+            // As many as may be large, or hardly any.
+            let large = if i % 3 == 2 { 3 } else { number / 64 + 32 };
+            let heading = rng.random_range(0..3);
+            let sign = if rng.random() { 1.0 } else { -1.0 };
+            let turned = |v: [f32; 3]| -> [f32; 3] { std::array::from_fn(|j| sign * v[(j + heading) % 3]) };
+            let mut spheres: Vec<Sphere> = (0..number)
+                .map(|k| {
+                    let (center, radius) = if k < large {
+                        (
+                            [0, 1, 2].map(|j| {
+                                if j < 2 {
+                                    rng.random_range(-0.5..0.5)
+                                } else {
+                                    rng.random_range(12.0f32..14.0)
+                                }
+                            }),
+                            4.0,
+                        )
+                    } else if k % 8 == 0 {
+                        // In the first slice, near the axis, before the large ones.
+                        let z = rng.random_range(3.0f32..7.0);
+                        ([z * rng.random_range(-0.1..0.1), z * rng.random_range(-0.1..0.1), z], 0.007_812_5)
+                    } else {
+                        let far = |rng: &mut dyn Rng| if RngExt::random(rng) { 50.0f32 } else { -50.0 };
+                        ([far(&mut rng), far(&mut rng), if rng.random() { 5.0 } else { 105.0 }], 0.007_812_5)
+                    };
+                    Sphere { center: turned(center), radius, color: [k as u8, (k >> 8) as u8, 99] }
+                })
+                .collect();
+            // Ids say nothing of sizes.
+            for k in (1..spheres.len()).rev() {
+                spheres.swap(k, rng.random_range(0..=k));
+            }
+            let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+            let pixel = 0.2 / side as f32;
+            let camera = Camera::new(
+                turned([0.0; 3]),
+                turned([-0.1, -0.1, 1.0]),
+                turned([pixel, 0.0, 0.0]),
+                turned([0.0, pixel, 0.0]),
+                size,
+            )
+            .expect("a camera");
+            let truth = exact(&scene, &camera);
+            for plan in [Plan::fast(), Plan::for_scene(&scene).plan] {
+                for level in Level::available() {
+                    let image = Tracer::new(plan, level).render(&scene, &camera).expect("a picture").image;
+                    assert_equal(&truth, &image, &|| format!("CGT_SEED={seed}, case {i}, {plan}, {level}"));
+                }
+            }
+            let is_small = |id: &&u32| **id != MISS && scene.spheres()[**id as usize].radius < 1.0;
+            truth.ids.iter().filter(is_small).count() as u64
+        })
+        .sum();
+    eprintln!(
+        "judged: {tries} scenes of 14,336 spheres and more, {before} pixels of a small one before large ones"
+    );
+    assert!(before > 20 * tries, "CGT_SEED={seed}: hardly a small one is seen: {before}");
+}
+
 #[test]
 fn what_tiles_need_is_asked_for() {
     let matrix = Matrix::new().expect("all data that is there can be read");

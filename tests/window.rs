@@ -10,6 +10,7 @@ use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::subject::NamedPlan;
 use verify::view::canvas::{Canvas, packed};
+use verify::view::clock::{Run, Split};
 use verify::view::command::{Command as Asked, Overlay, Press, asked};
 use verify::view::player::Player;
 use verify::view::state::State;
@@ -404,6 +405,23 @@ fn overlays_arrive_in_the_window() {
 }
 
 /// A limited run tells how fast it was, in a window and without one.
+#[test]
+fn medians_are_of_each_part_by_itself() {
+    let ms = Duration::from_millis;
+    let split = |build, trace, window| Split {
+        build: ms(build),
+        trace: ms(trace),
+        copy: ms(2 * build),
+        overlay: ms(3 * trace),
+        window: ms(window),
+    };
+    let run = Run { splits: vec![split(9, 1, 4), split(2, 8, 4), split(5, 3, 40)], wall: ms(1500) };
+    assert_eq!(run.medians(), split(5, 3, 4));
+    let words = "3 frames in 1.50 s, 2.0 frames a second; medians in ms: build 5.000, trace 3.000, copy 10.000, overlay 9.000, window 4.000";
+    assert_eq!(run.words(), words);
+    assert_eq!(split(9, 1, 4).sum(), ms(9 + 1 + 18 + 3 + 4));
+}
+
 #[test]
 fn a_run_is_measured() {
     let measured = |said: &str| {

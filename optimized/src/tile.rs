@@ -285,7 +285,9 @@ impl<M: Machine> Work<M> {
             }
             self.candidates.outlines.pad();
             let all = slice >= slices.count;
-            let round = Round { heading, pure, from, all, end: slices.far[slice.max(1) - 1] };
+            // Large spheres alone may fill a round, before any slice.
+            let end = slice.checked_sub(1).map_or(f32::NEG_INFINITY, |last| slices.far[last]);
+            let round = Round { heading, pure, from, all, end };
             let open = self.round(look, round, tile, stripe);
             if all || open == 0 {
                 return;

@@ -22,7 +22,7 @@ pub(crate) const NFF: &str = "\
 b 0.5 0 1
 v
 from 1 2 3
-at 0 0 0
+at 1 2 4
 up 0 0 1
 angle 45
 hither 1

@@ -18,6 +18,11 @@ fn samples_hold_what_was_written() {
         assert_eq!(frame_sizes(&loaded), [4, 4], "big-endian {big}, cell {cell}");
         assert_eq!(loaded.animation.frames()[1].spheres()[3].center, [3.0, 1.0, -1.5]);
     }
+    // X-PLOR keeps a time step of 64 bits where CHARMM says that there is a cell.
+    let mut xplor = dcd(false, false, 2, 0);
+    xplor[44..52].copy_from_slice(&0.02f64.to_le_bytes());
+    xplor[84..88].fill(0);
+    assert_eq!(ok("a.dcd", &xplor).animation, ok("a.dcd", &dcd(false, false, 2, 0)).animation);
     let xtc = ok("a.xtc", &small_xtc());
     assert_eq!(frame_sizes(&xtc), [2, 2]);
     assert_eq!(xtc.animation.frames()[1].spheres()[1].center, [10.0, 10.0, 5.0], "in Angstrom");
@@ -29,6 +34,7 @@ fn samples_hold_what_was_written() {
     assert_eq!((scene.spheres()[0], scene.spheres().len()), (first, 2));
     let view = nff.framing.expect("a viewpoint");
     assert_eq!((view.eye, view.fov, view.size), (Some([1.0, 2.0, 3.0]), Some(45.0), Some(size(32, 16))));
+    assert_eq!((view.target, view.up), (Some([1.0, 2.0, 4.0]), Some([0.0, 0.0, 1.0])));
     let lines: Vec<_> = nff.warnings.iter().map(|w| (w.line, w.text.as_str())).collect();
     assert_eq!(lines[0], (Some(13), "polygon \"p\" passed over"));
     assert_eq!(lines[1], (Some(17), "\"c\" passed over"));
@@ -69,6 +75,8 @@ fn lammps_columns_are_found_by_name() {
         ("diameter x y z", "3 1 2 3", [1.0, 2.0, 3.0], 1.5),
         ("x y z radius vx", "1 2 3 4 5", [1.0, 2.0, 3.0], 4.0),
         ("element x y z", "O 1 2 3", [1.0, 2.0, 3.0], 1.52),
+        ("element x y z", "C1 1 2 3", [1.0, 2.0, 3.0], 0.5),
+        ("element x y z radius", "C1 1 2 3 2", [1.0, 2.0, 3.0], 2.0),
         ("xs x ys y zs z", "9 1 9 2 9 3", [1.0, 2.0, 3.0], 0.5),
     ] {
         let loaded = dump(columns, atom);
@@ -118,20 +126,26 @@ fn carriage_returns_short_lines_and_junk_are_no_trouble() {
 
 #[test]
 fn first_alternate_location_is_kept_atom_by_atom() {
-    let atom = |location: char, name: &str, x: f32| {
-        format!("ATOM      1 {name:4}{location}SER A   7    {x:8.3}   0.000   0.000\n")
+    let at = |place: &str, location: char, name: &str, x: f32| {
+        format!("ATOM      1 {name:4}{location}SER {place:9}{x:8.3}   0.000   0.000\n")
     };
+    let atom = |location: char, name: &str, x: f32| at("A   7", location, name, x);
     let text = [
         atom(' ', " N", 1.0),
         atom('B', " CA", 2.0),
         atom('A', " CA", 3.0),
         atom('A', " CB", 4.0),
         atom('B', " CB", 5.0),
+        // Another chain, another residue, another atom of a longer name: each has a first location of its own.
+        at("B   7", 'A', " CA", 6.0),
+        at("A   8", 'A', " CA", 7.0),
+        at("A   7", 'A', " CA2", 8.0),
+        at("A   7A", 'A', " CA", 9.0),
     ]
     .concat();
     let loaded = ok("a.pdb", text.as_bytes());
     let xs: Vec<f32> = loaded.animation.frames()[0].spheres().iter().map(|s| s.center[0]).collect();
-    assert_eq!(xs, [1.0, 2.0, 4.0]);
+    assert_eq!(xs, [1.0, 2.0, 4.0, 6.0, 7.0, 8.0, 9.0]);
     assert_eq!(loaded.warnings.len(), 1);
 }
 

@@ -5,6 +5,7 @@
 //! is reported as not judged; only a truth that cannot be had is an error.
 
 use crate::case::Asked;
+use crate::judge::compare::fault_at;
 use crate::judge::judge;
 use crate::judge::outside::{Witness, hear};
 use crate::picture::PictureError;
@@ -90,19 +91,20 @@ pub fn run(
                 let seconds = took.map_or(seconds, |took| took.as_secs_f64());
                 let twin = naive.for_promise(subject.promise(), frame, threads, progress);
                 let verdict = judge(scene, camera, &truth, &image, subject.promise(), twin);
+                let against = held_against(&truth, twin, &image, verdict.comparison.as_ref());
                 report.seconds = Some(seconds);
                 report.rays_per_second = Some(camera.size().pixels() as f64 / seconds);
                 report.first_wrong = verdict
                     .comparison
                     .as_ref()
-                    .and_then(|c| account(frame, &subject.option(), &truth, &image, c));
+                    .and_then(|c| account(frame, &subject.option(), &truth, against, &image, c));
                 (report.verdict, report.because) = (verdict.verdict, verdict.because);
                 report.comparison = verdict.comparison;
                 for note in notes {
                     report.because += &format!(" {note}");
                 }
                 match &report.comparison {
-                    Some(comparison) => pictures.add(&truth, &image, comparison.first_wrong)?,
+                    Some(comparison) => pictures.add(against, &image, comparison.first_wrong)?,
                     None => pictures.skip(),
                 }
                 naive.keep(*subject, threads, image);
@@ -191,17 +193,34 @@ impl NaivePictures {
     }
 }
 
-/// The first wrong pixel in full, one thing a line: its ray and both answers, in decimal and in bits, and the
+/// What a picture is shown beside: the truth, or where it breaks a promise to be the naive one, that.
+fn held_against<'a>(
+    truth: &'a Image,
+    twin: Option<&'a Image>,
+    subject: &Image,
+    comparison: Option<&Comparison>,
+) -> (&'static str, &'a Image) {
+    let index = comparison.and_then(|c| c.first_wrong).map(|place| index(truth, place));
+    let broken = twin.zip(index).filter(|(twin, index)| fault_at(twin, subject, *index).is_some());
+    broken.map_or(("Truth", truth), |(twin, _)| ("Promised", twin))
+}
+
+fn index(image: &Image, [x, y]: [u32; 2]) -> usize {
+    y as usize * image.size.width() as usize + x as usize
+}
+
+/// The first wrong pixel in full, one thing a line: its ray and all answers, in decimal and in bits, and the
 /// command that comes to it again.
 fn account(
     frame: &Frame<'_>,
     option: &str,
     truth: &Image,
+    (against, promised): (&str, &Image),
     subject: &Image,
     comparison: &Comparison,
 ) -> Option<String> {
     let [x, y] = comparison.first_wrong?;
-    let i = y as usize * truth.size.width() as usize + x as usize;
+    let i = index(truth, [x, y]);
     let ray = Ray::of_pixel(frame.camera, x, y);
     let number = |x: f32| format!("{x:?} (0x{:08x})", x.to_bits());
     let vector = |v: [f32; 3]| v.map(number).join(", ");
@@ -210,12 +229,15 @@ fn account(
         id => format!("sphere {id} at t = {}, colour {:?}", number(image.t[i]), &image.rgba[i][..3]),
     };
     let mut text = format!(
-        "pixel      ({x}, {y})\neye        {}\ndirection  {}\ntruth      {}\nsubject    {}",
+        "pixel      ({x}, {y})\neye        {}\ndirection  {}\ntruth      {}",
         vector(ray.eye),
         vector(ray.dir),
         answer(truth),
-        answer(subject),
     );
+    if !std::ptr::eq(promised, truth) {
+        text += &format!("\n{:<10} {}", against.to_lowercase(), answer(promised));
+    }
+    text += &format!("\nsubject    {}", answer(subject));
     if !frame.replay.is_empty() {
         text += &format!("\nreplay     {} {option}", frame.replay);
     }

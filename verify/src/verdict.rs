@@ -18,6 +18,21 @@ pub enum Verdict {
     NotJudged,
 }
 
+impl Verdict {
+    /// The worst of many, of which a wrong one is worse than one that nobody judged; of none that of none.
+    #[must_use]
+    pub fn worst_of(verdicts: impl IntoIterator<Item = Self>) -> Self {
+        let badness = |verdict: &Self| match verdict {
+            Self::Equal => 0,
+            Self::WithinBound => 1,
+            Self::Undecidable => 2,
+            Self::NotJudged => 3,
+            Self::Wrong => 4,
+        };
+        verdicts.into_iter().max_by_key(badness).unwrap_or(Self::NotJudged)
+    }
+}
+
 /// A subject's picture held against the truth, pixel by pixel.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Comparison {
@@ -42,7 +57,8 @@ pub struct Comparison {
     /// Largest difference of one colour channel, 0 to 255.
     pub color_max: u8,
     /// Column and row of the first pixel, in row order, with a wrong id; failing that with a wrong t;
-    /// failing that with a wrong colour. Where some pixels are unexplained, of these alone.
+    /// failing that with a wrong colour. Where some pixels are unexplained, of these alone; where a promise to be the naive picture is
+    /// broken, the first that differs from that.
     pub first_wrong: Option<[u32; 2]>,
     /// Wrong pixels that the subject's stated error bound does not explain.
     pub unexplained: u64,

@@ -1,10 +1,11 @@
 //! Shards put together: every unit must be there once. What comes out does not depend on how many shards there were, who did them, or in which
 //! order they are read.
 
-use super::plan::Plan;
+use super::plan::{Film, Plan};
 use super::shard::{Head, Lines, ShardError, Which, read};
-use super::unit::{Broken, Found};
+use super::unit::{self, Broken, Found};
 use crate::report::words;
+use crate::verdict::Verdict;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -21,7 +22,7 @@ pub enum Outcome {
     Held,
     /// At least one was.
     Broken,
-    /// None was, but less was at stake than the plan demands.
+    /// None was, but less was at stake than the plan demands, or of a film nothing could be judged.
     TooLittle,
 }
 
@@ -164,11 +165,20 @@ pub fn merge(plan: &Plan, places: &[PathBuf]) -> Result<Merged, MergeError> {
     }
     let of = |what: &String| sum.counts.get(what).copied().unwrap_or(0);
     let lacking = plan.least.iter().filter(|(what, least)| of(what) < **least);
-    let lacking: Vec<String> = lacking
-        .map(|(what, least)| {
-            format!("{what}: {} of at least {}", words::count(of(what)), words::count(*least))
-        })
-        .collect();
+    let lacking = lacking.map(|(what, least)| {
+        format!("{what}: {} of at least {}", words::count(of(what)), words::count(*least))
+    });
+    // Whoever has no frame that anything can be said of has kept no promise.
+    let named = |film: &'_ Film| {
+        film.subjects.iter().map(|name| format!("{name} on {}", film.scene)).collect::<Vec<_>>()
+    };
+    let frames = |who: &String, verdict| of(&format!("{who}: {}", unit::word(verdict)));
+    let judged = |who: &String| {
+        [Verdict::Equal, Verdict::WithinBound, Verdict::Wrong].map(|verdict| frames(who, verdict))
+    };
+    let silent = plan.film.iter().flat_map(named).filter(|who| judged(who) == [0; 3]);
+    let silent = silent.map(|who| format!("{who}: no frame of which anything could be judged"));
+    let lacking: Vec<String> = lacking.chain(silent).collect();
     let outcome = match (failures.is_empty(), lacking.is_empty()) {
         (false, _) => Outcome::Broken,
         (true, false) => Outcome::TooLittle,

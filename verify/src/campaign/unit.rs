@@ -182,7 +182,8 @@ impl<'a> Bench<'a> {
     }
 }
 
-fn word(verdict: Verdict) -> &'static str {
+/// What frames of a verdict are counted as.
+pub(super) fn word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Equal => "frames equal to the truth",
         Verdict::WithinBound => "frames within the bound of rounding",

@@ -11,7 +11,6 @@ pub mod shrink;
 pub mod text;
 
 use crate::foreign::Foreign;
-use crate::judge::compare::compare;
 use crate::judge::{Judgement, judge};
 use crate::subject::{Naive, Promise, Subject, SubjectError, may_refuse, promise};
 use crate::verdict::Verdict;
@@ -207,9 +206,7 @@ impl Case {
                 Promise::Exact | Promise::Rounded(_) => None,
             };
             let judgement = judge(scene, &self.camera, &truth, &picture, promise, twin.as_ref());
-            // Of a promise of equality where it is broken; of rounding what that does not explain.
-            let twins = twin.as_ref().and_then(|twin| compare(twin, &picture).ok()?.first_wrong);
-            let differs = twins.or_else(|| judgement.comparison.as_ref()?.first_wrong);
+            let differs = judgement.comparison.as_ref().and_then(|comparison| comparison.first_wrong);
             let wrong = differs.filter(|_| judgement.verdict == Verdict::Wrong);
             Ok(Judged { promised: twin.unwrap_or(truth), picture, judgement, wrong })
         });
@@ -233,6 +230,5 @@ impl Case {
 /// The worst verdict on any frame.
 #[must_use]
 pub fn worst(judged: &[Judged]) -> Verdict {
-    let verdicts = judged.iter().map(|judged| judged.judgement.verdict);
-    verdicts.max_by_key(|verdict| *verdict as u8).unwrap_or(Verdict::NotJudged)
+    Verdict::worst_of(judged.iter().map(|judged| judged.judgement.verdict))
 }

@@ -60,6 +60,7 @@ pub fn judge(
                     return wrong(Some(comparison), format!("The pictures cannot be compared: {shapeless}."));
                 }
                 Some((naive, Ok(twin))) if twin.first_wrong.is_some() => {
+                    comparison.first_wrong = twin.first_wrong;
                     let [x, y] = twin.first_wrong.unwrap_or_default();
                     let differing = (0..naive.ids.len()).filter(|i| fault_at(naive, subject, *i).is_some());
                     let text = format!(
@@ -147,7 +148,8 @@ pub fn painted(scene: &Scene, ray: &Ray, answer: Hit) -> [u8; 4] {
 /// Whether rounding can turn this ray's truth into that answer. `None` if the bound states nothing.
 ///
 /// The answer's own sphere must be one that may be hit, at a t that may be had; and no sphere that must be
-/// hit may be certain to be nearer. The t of a miss is never a matter of rounding, nor is a colour.
+/// hit may be certain to be nearer, which contradicts the answer whatever is not stated of others. The t of a miss is
+/// never a matter of rounding, nor is a colour.
 fn explains(
     scene: &Scene,
     ray: &Ray,
@@ -160,22 +162,27 @@ fn explains(
     if color != painted(scene, ray, answer) || (id == MISS && t != f32::INFINITY) {
         return Some(false);
     }
+    let mut stated = true;
     if id != MISS {
         let Some(sphere) = scene.spheres().get(id as usize) else { return Some(false) };
-        let own = band(rounding, ray, sphere)?;
-        let Some([lo, hi]) = own.may_hit else { return Some(false) };
-        if !(lo..=hi).contains(&f64::from(t)) {
-            return Some(false);
+        match band(rounding, ray, sphere) {
+            Some(own) if !own.may_hit.is_some_and(|[lo, hi]| (lo..=hi).contains(&f64::from(t))) => {
+                return Some(false);
+            }
+            own => stated = own.is_some(),
         }
     }
     if fault == Fault::T {
-        return Some(true);
+        return stated.then_some(true);
     }
     for sphere in scene.spheres() {
-        let band = band(rounding, ray, sphere)?;
+        let Some(band) = band(rounding, ray, sphere) else {
+            stated = false;
+            continue;
+        };
         if band.must_hit.is_some_and(|hi| id == MISS || hi < f64::from(t)) {
             return Some(false);
         }
     }
-    Some(true)
+    stated.then_some(true)
 }

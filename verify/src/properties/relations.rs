@@ -1,5 +1,5 @@
-//! Metamorphic relations: a case changed so that the picture must change in a known way, or not at all. No truth is needed, only the
-//! tracer, twice; so they hold a tracer even to what a judge and it might both have misread.
+//! Metamorphic relations: a case changed so that the picture must change in a known way, or not at all. No truth is needed but for which roots are
+//! equal, only the tracer, twice; so they hold a tracer even to what a judge and it might both have misread.
 
 use crate::case::{Asked, Case};
 use crate::subject::Promise;
@@ -7,6 +7,7 @@ use contract::{Animation, Camera, Image, MISS, Scene, Size, Sphere};
 use optimized::plan::OnEvent;
 use rand::seq::SliceRandom;
 use rand::{Rng, RngExt};
+use reference::{Arithmetic, Ray, Tracer};
 
 /// How a case is changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -105,9 +106,19 @@ impl Relation {
                     let two = plain(vec![spheres[a as usize], spheres[b as usize]]);
                     two.and_then(|two| last(&two).ok()).is_some_and(|image| image.ids[i] == 0)
                 };
-                let tied = |i: usize, a: u32, b: u32| {
-                    a != MISS && b != MISS && first_of(a, b, i) && first_of(b, a, i)
+                // Whoever promises the truth may not take two roots for equal that only round to one f32.
+                let truly_first = |a: u32, b: u32, i: usize| {
+                    let i = u32::try_from(i).expect("an image has at most 2^27 pixels");
+                    let width = case.camera.size().width();
+                    let ray = Ray::of_pixel(&case.camera, i % width, i / width);
+                    let two =
+                        Scene::new(vec![spheres[a as usize], spheres[b as usize]], [0; 3], scene.light());
+                    let exact = Tracer::new(Arithmetic::Exact);
+                    two.is_ok_and(|two| exact.trace(&ray, &two).is_some_and(|hit| hit.id == 0))
                 };
+                let first = |a: u32, b: u32, i: usize| first_of(a, b, i) && (!exact || truly_first(a, b, i));
+                let tied =
+                    |i: usize, a: u32, b: u32| a != MISS && b != MISS && first(a, b, i) && first(b, a, i);
                 self.compare(&old, &new, owner, same, tied)
             }
             Self::Mirrored => {

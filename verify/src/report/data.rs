@@ -8,7 +8,7 @@ use contract::Camera;
 use serde::{Deserialize, Serialize};
 
 /// Version of the layout of `report.json`.
-pub const SCHEMA_VERSION: u32 = 3;
+pub const SCHEMA_VERSION: u32 = 4;
 
 /// Everything one run found out.
 #[derive(Clone, Debug, Serialize)]
@@ -25,6 +25,8 @@ pub struct Report {
     pub scenes: Vec<SceneReport>,
     /// What is claimed, and what the claim rests on.
     pub claims: Vec<Claim>,
+    /// Promises that other chapters found broken, a sentence each.
+    pub broken: Vec<String>,
     /// Judges that could have spoken and did not.
     pub absent: Vec<Absent>,
 }
@@ -233,36 +235,27 @@ impl From<&Camera> for CameraRecord {
     }
 }
 
-/// The verdict on a whole run: its worst part. One wrong subject or witness makes it wrong, one that nobody judged makes
+/// The verdict on a whole run: its worst part. One wrong subject or witness or broken promise makes it wrong, one that nobody judged makes
 /// it not judged, and so do a judge that was asked for and is absent, and an empty run. A known fault is shown and not counted.
 #[must_use]
-pub fn overall(scenes: &[SceneReport], absent: &[Absent]) -> Verdict {
+pub fn overall(scenes: &[SceneReport], broken: &[String], absent: &[Absent]) -> Verdict {
     let counted = || scenes.iter().flat_map(|scene| &scene.subjects).filter(|subject| !subject.known_fault);
     let subjects = counted().map(|subject| subject.verdict);
     let witnesses = scenes.iter().flat_map(|scene| &scene.outside).map(Hearing::verdict);
     let missing = absent.iter().filter(|judge| judge.needed).map(|_| Verdict::NotJudged);
     // Witnesses alone are no run: what is judged is subjects.
-    if counted().next().is_none() {
-        return Verdict::NotJudged;
-    }
-    let verdicts = subjects.chain(witnesses).chain(missing);
-    verdicts.max_by_key(|verdict| badness(*verdict)).unwrap_or(Verdict::NotJudged)
-}
-
-/// From good to bad, for the worst of many.
-pub(super) fn badness(verdict: Verdict) -> u8 {
-    match verdict {
-        Verdict::Equal => 0,
-        Verdict::WithinBound => 1,
-        Verdict::Undecidable => 2,
-        Verdict::NotJudged => 3,
-        Verdict::Wrong => 4,
-    }
+    let nobody = counted().next().is_none().then_some(Verdict::NotJudged);
+    let broken = broken.iter().map(|_| Verdict::Wrong);
+    Verdict::worst_of(subjects.chain(witnesses).chain(missing).chain(nobody).chain(broken))
 }
 
 impl SceneReport {
-    /// Whether another one is the next frame of the same film.
+    /// Whether another one is the next frame of the same film: of one name and size, by the same subjects, and a later frame.
     pub(super) fn is_followed_by(&self, next: &Self) -> bool {
-        self.name == next.name && self.frames > 1
+        let subjects =
+            |scene: &'_ Self| scene.subjects.iter().map(|subject| subject.name.clone()).collect::<Vec<_>>();
+        let same = (&self.name, self.frames, self.width, self.height)
+            == (&next.name, next.frames, next.width, next.height);
+        same && self.frame < next.frame && subjects(self) == subjects(next)
     }
 }

@@ -1,10 +1,9 @@
 //! Frames of one animation as one thing on the page: consecutive scenes of one name come in, a film with its frames, each with the truth and
 //! what differs from it, goes out. The page's own script turns it; without it the first frame is seen.
 
-use super::data::badness;
 use super::view::{Badge, SceneView};
 use super::words::{count, word};
-use crate::verdict::Verdict;
+use crate::verdict::{Comparison, Verdict};
 
 /// An animation on the page.
 pub(super) struct Film<'a> {
@@ -19,8 +18,8 @@ pub(super) struct Frame<'a> {
     pub(super) number: usize,
     pub(super) panels: Vec<(String, &'a str)>,
     pub(super) told: String,
-    /// Of each subject its verdict and its wrong pixels.
-    pub(super) row: Vec<(Badge, String)>,
+    /// Of each subject its verdict and its pixels with a wrong id, a wrong t, and a wrong colour.
+    pub(super) row: Vec<(Badge, [String; 3])>,
     verdicts: Vec<Verdict>,
 }
 
@@ -62,7 +61,7 @@ impl Item<'_> {
             Self::Film(film) => {
                 let k = film.columns.iter().position(|name| *name == subject)?;
                 let verdicts = film.frames.iter().filter_map(|frame| frame.verdicts.get(k));
-                Some((verdicts.copied().max_by_key(|verdict| badness(*verdict))?.into(), &film.anchor))
+                Some((Verdict::worst_of(verdicts.copied()).into(), &film.anchor))
             }
         }
     }
@@ -104,13 +103,20 @@ fn frame<'a>(scene: &'a SceneView<'a>) -> Frame<'a> {
             panels.push((format!("Difference of {name}"), difference.as_str()));
         }
         told.push(match &subject.data.comparison {
-            Some(c) => format!("{name}: {}, {} wrong pixels", word(subject.data.verdict), count(c.wrong_ids)),
+            Some(c) => format!(
+                "{name}: {}, {} wrong ids, {} wrong t",
+                word(subject.data.verdict),
+                count(c.wrong_ids),
+                count(c.wrong_t)
+            ),
             None => format!("{name}: {}", word(subject.data.verdict)),
         });
     }
     let cell = |subject: &super::view::SubjectView<'_>| {
-        let wrong = subject.data.comparison.as_ref().map_or_else(String::new, |c| count(c.wrong_ids));
-        (subject.badge, wrong)
+        let of = |which: fn(&Comparison) -> u64| {
+            subject.data.comparison.as_ref().map_or_else(String::new, |c| count(which(c)))
+        };
+        (subject.badge, [of(|c| c.wrong_ids), of(|c| c.wrong_t), of(|c| c.wrong_color)])
     };
     Frame {
         number: scene.data.frame,

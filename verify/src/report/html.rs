@@ -71,7 +71,7 @@ pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Resu
     let page = Page {
         report,
         badge: report.verdict.into(),
-        sentence: sentence(report.verdict),
+        sentence: sentence(report.verdict, !report.broken.is_empty()),
         tally: tally(report),
         known_faults: known_faults(report),
         headings: HEADINGS,

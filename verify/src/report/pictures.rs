@@ -27,9 +27,11 @@ pub(super) struct SubjectPictures {
     pub(super) differing: Option<Differing>,
 }
 
-/// Truth, subject and difference as PNG each, whole and around the first wrong pixel.
+/// What was promised, subject and difference as PNG each, whole and around the first wrong pixel.
 #[derive(Clone, Debug)]
 pub(super) struct Differing {
+    /// What the first panel is called.
+    pub(super) against: &'static str,
     pub(super) panels: [Vec<u8>; 3],
     pub(super) zoom: [Vec<u8>; 3],
 }
@@ -43,21 +45,22 @@ impl ScenePictures {
         Ok(Self { truth: Some(png(&canvas(truth)?)?), ..Self::default() })
     }
 
-    /// Adds the next subject's picture, held against the truth, and marked where it is wrong first, or differs.
+    /// Adds the next subject's picture, held against the truth or another by its name, and marked where it is wrong first, or differs.
     ///
     /// # Errors
     /// [`PictureError`] if the two differ in size or a layer does not fit its size.
     pub fn add(
         &mut self,
-        truth: &Image,
+        (against, promised): (&'static str, &Image),
         subject: &Image,
         place: Option<[u32; 2]>,
     ) -> Result<(), PictureError> {
-        let panels = panels(truth, subject, place)?;
+        let panels = panels(promised, subject, place)?;
         let differing = match place {
             Some(place) => Some(Differing {
+                against,
                 panels: encoded(&panels)?,
-                zoom: encoded(&zoom(truth, subject, place, ZOOM_SIDE, ZOOM_SCALE)?)?,
+                zoom: encoded(&zoom(promised, subject, place, ZOOM_SIDE, ZOOM_SCALE)?)?,
             }),
             None => None,
         };

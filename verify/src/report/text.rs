@@ -2,7 +2,6 @@
 //! [`TEXT_WIDTH`] columns wide, with or without colour. A [`Report`] comes in, text with a newline at its end goes
 //! out. Long names end in an ellipsis; control characters in them are replaced, so no name can steer a terminal.
 
-use super::data::badness;
 use super::outside::sentences;
 use super::words::{NONE, count, mega_rays, sign, word};
 use super::{Report, SceneReport, SubjectReport};
@@ -65,8 +64,7 @@ fn cells(scene: &SceneReport, subject: &SubjectReport) -> [String; 8] {
 fn summed(film: &[SceneReport], name: &str) -> (Verdict, [String; 8]) {
     let all: Vec<&SubjectReport> =
         film.iter().flat_map(|scene| &scene.subjects).filter(|subject| subject.name == name).collect();
-    let verdict = all.iter().map(|subject| subject.verdict).max_by_key(|verdict| badness(*verdict));
-    let verdict = verdict.unwrap_or(Verdict::NotJudged);
+    let verdict = Verdict::worst_of(all.iter().map(|subject| subject.verdict));
     let compared: Vec<_> = all.iter().filter_map(|subject| subject.comparison.as_ref()).collect();
     let sum = |of: fn(&crate::verdict::Comparison) -> u64| brief(compared.iter().map(|c| of(c)).sum());
     let most = brief(compared.iter().map(|c| c.t_ulp.max).max().unwrap_or(0));
@@ -116,10 +114,19 @@ fn ending(report: &Report, color: bool) -> String {
     let why =
         silent.map(|(scene, subject)| format!("{} on {}: {}", subject.name, scene.name, subject.because));
     let why: String = why.map(|line| wrapped(&line) + "\n").collect();
+    let broken = report
+        .broken
+        .iter()
+        .map(|line| wrapped(&format!("Wrong where it promised not to be: {line}")) + "\n");
+    let broken: String = broken.collect();
     let absent = report.absent.iter().map(|absent| format!("{}: not judged. {}", absent.judge, absent.why));
     let absent: String = absent.map(|line| wrapped(&line) + "\n").collect();
     let verdict = style(report.verdict, color);
-    format!("{said}{why}{absent}{verdict}{} {}{verdict:#}\n", sign(report.verdict), word(report.verdict))
+    format!(
+        "{said}{why}{broken}{absent}{verdict}{} {}{verdict:#}\n",
+        sign(report.verdict),
+        word(report.verdict)
+    )
 }
 
 pub(crate) fn wrapped(line: &str) -> String {

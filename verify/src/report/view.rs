@@ -169,8 +169,8 @@ fn cells(c: &Comparison) -> Vec<String> {
 impl Shown {
     fn new(pictures: &Differing) -> Self {
         let named = |bytes: &[Vec<u8>; 3]| {
-            let [truth, subject, difference] = bytes;
-            [("Truth", uri(truth)), ("Subject", uri(subject)), ("Difference", uri(difference))]
+            let [promised, subject, difference] = bytes;
+            [(pictures.against, uri(promised)), ("Subject", uri(subject)), ("Difference", uri(difference))]
         };
         Self { panels: named(&pictures.panels), zoom: named(&pictures.zoom) }
     }

@@ -34,8 +34,9 @@ pub(crate) fn sign(verdict: Verdict) -> &'static str {
 }
 
 /// What the verdict means for a whole run.
-pub(crate) fn sentence(verdict: Verdict) -> &'static str {
+pub(crate) fn sentence(verdict: Verdict, elsewhere: bool) -> &'static str {
     match verdict {
+        Verdict::Wrong if elsewhere => "A promise is broken, which is told below.",
         Verdict::Equal => "Every picture has the bits of the exact one.",
         Verdict::WithinBound => "Every difference lies where the subject's stated arithmetic cannot decide.",
         Verdict::Undecidable => "Some pixels lie outside what a subject states anything about.",

@@ -1,4 +1,4 @@
-//! DCD trajectories of CHARMM and NAMD, in either byte order. Records of positions in Ångström come in, with the
+//! DCD trajectories of CHARMM, NAMD and X-PLOR, in either byte order. Records of positions in Ångström come in, with the
 //! atoms' looks from another file; frames go out. The number of frames is what the records hold: headers of real
 //! files promise others, which is a warning. Refused are records whose two lengths differ, coordinates that are not
 //! finite, and fixed atoms, whose positions later frames leave out.
@@ -144,7 +144,10 @@ impl<'a> Records<'a> {
             return Err(self.wrong(start, "magic word", String::from_utf8_lossy(&word), "CORD"));
         }
         let flag = |n: usize| self.int(start + 4 * n);
-        let (promised, fixed, cell, fourth) = (flag(1), flag(9), flag(11) != 0, flag(12) != 0);
+        // X-PLOR, whose version is 0, has a time step of 64 bits where CHARMM has one of 32 and these two.
+        let charmm = flag(20) != 0;
+        let (promised, fixed, cell, fourth) =
+            (flag(1), flag(9), charmm && flag(11) != 0, charmm && flag(12) != 0);
         if fixed != 0 {
             return Err(ReadError::FixedAtoms { file: self.file.into(), fixed });
         }

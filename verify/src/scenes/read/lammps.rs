@@ -58,7 +58,8 @@ pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
         }
     }
     if let Some(line) = guessed {
-        frames.warn(Some(line), format!("no column radius or diameter; {RADIUS} is used"));
+        frames
+            .warn(Some(line), format!("no column radius or diameter, nor a known element; {RADIUS} is used"));
     }
     frames.finish(Format::Lammps, "no ITEM: ATOMS")
 }
@@ -159,16 +160,13 @@ fn atoms(
 ) -> Result<End, ReadError> {
     frames.room(count)?;
     let mut found: Vec<(u64, Sphere)> = Vec::with_capacity(count);
-    if columns.radius.is_none() && columns.element.is_none() && count > 0 {
-        guessed.get_or_insert(head.number);
-    }
     for order in 0..count as u64 {
         let line = lines.next();
         let blank = line.is_none_or(|l| l.text.trim_ascii().is_empty() && lines.only_blank_left());
         let Some(line) = line.filter(|_| !blank) else {
             return Ok(End::Cut { line: head.number, detail: format!("{order} of {count} atoms") });
         };
-        found.push(atom(line, columns, bounds, order)?);
+        found.push(atom(line, columns, bounds, order, guessed)?);
     }
     found.sort_by_key(|&(id, _)| id);
     Ok(End::Whole(found.into_iter().map(|(_, sphere)| sphere).collect()))
@@ -179,6 +177,7 @@ fn atom(
     columns: &Columns,
     bounds: Option<[[f64; 3]; 3]>,
     order: u64,
+    guessed: &mut Option<usize>,
 ) -> Result<(u64, Sphere), ReadError> {
     let word = |at: usize, field| {
         line.words().nth(at).ok_or_else(|| line.missing(field, "each named column must be filled"))
@@ -213,7 +212,13 @@ fn atom(
                 return Err(value.wrong("radius", "half of it must be above 0"));
             }
         }
-        None => element.map_or(RADIUS, |e| e.radius),
+        None => element.map_or_else(
+            || {
+                guessed.get_or_insert(line.number);
+                RADIUS
+            },
+            |e| e.radius,
+        ),
     };
     let color = element.map_or(BY_TYPE[(kind.wrapping_sub(1) % 8) as usize], |e| e.color);
     Ok((id, Sphere { center, radius, color }))

@@ -19,6 +19,7 @@ pub(crate) mod verify;
 pub(crate) mod view;
 
 use crate::Failure;
+use ::verify::verdict::Verdict;
 use std::collections::HashSet;
 use std::io::Write;
 use std::process::ExitCode;
@@ -32,6 +33,15 @@ fn distinct<'a>(mut names: impl Iterator<Item = &'a str>) -> Result<(), Failure>
                 .into())
         }
         None => Ok(()),
+    }
+}
+
+/// The exit code of a report.
+fn ending(verdict: Verdict) -> ExitCode {
+    match verdict {
+        Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
+        Verdict::Wrong => ExitCode::from(1),
+        Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
     }
 }
 

@@ -80,24 +80,19 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     let Chapters { parts, broken, mut absent } = chapters(args, &names, &view)?;
     // The same may be missing in more than one chapter.
     absent.dedup_by(|one, other| one.judge == other.judge);
-    super::kept(&broken);
-    let verdict = if broken.is_empty() { overall(&scenes, &absent) } else { Verdict::Wrong };
     let report = Report {
         schema_version: SCHEMA_VERSION,
         title: "Sphere tracers, judged".into(),
-        verdict,
+        verdict: overall(&scenes, &broken, &absent),
         environment: environment(threads, &[level]),
         scenes,
         claims: all_claims(),
+        broken,
         absent,
     };
     let paths = write(&args.out, &report, &pictures, &parts)?;
     say(&format!("{}report: {}\n", text(&report, std::io::stdout().is_terminal()), paths.html.display()))?;
-    Ok(match report.verdict {
-        Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
-        Verdict::Wrong => ExitCode::from(1),
-        Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
-    })
+    Ok(super::ending(report.verdict))
 }
 
 /// The naive tracers and all plans.

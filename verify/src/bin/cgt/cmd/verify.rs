@@ -55,10 +55,11 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     let report = Report {
         schema_version: SCHEMA_VERSION,
         title: format!("Verdict on {}", args.scenes.join(", ")),
-        verdict: overall(&scenes, &absent),
+        verdict: overall(&scenes, &[], &absent),
         environment: environment(args.view.threads(), &levels),
         scenes,
         claims: claims(),
+        broken: Vec::new(),
         absent,
     };
     let paths = write(&args.out, &report, &pictures, &[])?;
@@ -67,11 +68,7 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     for (_, kept) in kept {
         say(&format!("kept: {}\n", kept.command))?;
     }
-    Ok(match report.verdict {
-        Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
-        Verdict::Wrong => ExitCode::from(1),
-        Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
-    })
+    Ok(super::ending(report.verdict))
 }
 
 /// Questions that making a case smaller may ask.
