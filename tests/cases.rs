@@ -214,8 +214,8 @@ fn a_failing_case_shrinks_to_what_matters() {
     };
     assert!(differs(&case), "far away the textbook form should lose rims");
     let small = shrink(&case, 5_000, &differs);
-    assert!(differs(&behind));
-    let scene = &behind.frames.frames()[0];
+    assert!(differs(&small));
+    let scene = &small.frames.frames()[0];
     let size = small.camera.size();
     assert_eq!((scene.spheres().len(), size.width(), size.height()), (1, 1, 1), "{}", small.to_json());
     let whole = |v: [f32; 3]| v.iter().filter(|x| x.fract() == 0.0).count();

@@ -308,11 +308,11 @@ fn mapped(
 /// A sphere that no ray reaches, if all rays go to one side of a plane through the eye.
 fn behind(camera: &Camera, rng: &mut impl Rng) -> Option<Sphere> {
     let (width, height) = (camera.size().width(), camera.size().height());
-    let middle = reference::Ray::of_pixel(camera, width / 2, height / 2).dir.map(f64::from);
+    let middle = Ray::of_pixel(camera, width / 2, height / 2).dir.map(f64::from);
     let dot = |v: [f32; 3]| (0..3).map(|i| middle[i] * f64::from(v[i])).sum::<f64>();
     for x in [0, width - 1] {
         for y in [0, height - 1] {
-            let d = reference::Ray::of_pixel(camera, x, y).dir;
+            let d = Ray::of_pixel(camera, x, y).dir;
             if dot(d) <= 1e-3 * middle.iter().map(|x| x * x).sum::<f64>() {
                 return None;
             }
