@@ -1,15 +1,25 @@
 //! Does `cgt bench` say what it measured, time nobody who is wrong, and end with the right code? No time is ever asserted.
 
-use contract::{Camera, Image, MISS, Scene};
-use serde_json::Value;
+use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Sphere};
+use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, Output};
+use std::time::Duration;
 use tempfile::TempDir;
-use verify::bench::check::check;
-use verify::bench::contestant::{Kind, Layers, Oath};
+use verify::bench::baseline::{BaselineError, Step, compare};
+use verify::bench::check::{Checked, check};
+use verify::bench::contestant::{Contestant, Frame, Kind, Layers, Oath};
+use verify::bench::data::{Curve, Point, SCHEMA_VERSION, Truth};
+use verify::bench::rounds::Timing;
+use verify::bench::scene::race;
+use verify::bench::spread::Spread;
+use verify::bench::text::text;
+use verify::bench::{Bench, Effort, Input, Row, SceneBench, Summary};
+use verify::report::{Absent, Environment};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
-use verify::subject::Rounding;
+use verify::subject::{Rounding, SubjectError};
+use verify::verdict::Verdict;
 
 /// Quick, and not whole blocks or packets at the right and lower edges.
 const QUICK: [&str; 6] = ["--size", "70x37", "--rounds", "2", "--threads", "1"];
@@ -115,6 +125,7 @@ fn numbers_agree_with_each_other_and_files_are_whole() {
         consistent(scene);
         let timed = |kind| fastest(scene, kind).is_some();
         assert!(timed("subject") && timed("limit"), "{scene}");
+        assert_eq!(scene["rounds"], 2, "other rounds than were asked for: {scene}");
         assert_eq!(
             (&scene["width"], &scene["height"], &scene["threads"]),
             (&70.into(), &37.into(), &1.into())
@@ -238,13 +249,14 @@ fn a_baseline_is_held_to() {
 #[test]
 fn curves_grow_and_are_checked() {
     let desk = desk();
-    let limits = ["--curves", "--most-spheres", "1000", "--most-rows", "180"];
+    let limits = ["--curves", "--most-spheres", "10000", "--most-rows", "180"];
     let output = bench(&desk, &[&["2juy", "--json", "b.json", "--out", "folder"], &limits[..]].concat());
     assert_eq!(code(&output), 0, "{output:?}");
     let bench = json(&desk.path().join("b.json"));
     let curves = list(&bench, "curves");
     let over: Vec<_> = curves.iter().map(|curve| curve["over"].as_str().expect("a word")).collect();
     assert_eq!(over, ["spheres", "pixels", "threads"]);
+    let mut grown = 0;
     for curve in curves {
         let points = list(curve, "points");
         assert!(!points.is_empty(), "{curve}");
@@ -263,7 +275,22 @@ fn curves_grow_and_are_checked() {
             };
             assert_eq!(point["x"].as_f64(), grows);
         }
+        // How much something grew is told of the very times that stand at its two points.
+        for growth in list(curve, "growth") {
+            let [few, many] = [0, 1].map(|end| {
+                let point =
+                    points.iter().find(|point| point["x"] == growth["between"][end]).expect("a point");
+                let timing = &list(&point["scene"], "contestants")[0]["timing"];
+                let part = if growth["what"] == "rebuild" { "build" } else { "total" };
+                timing[part]["median"].as_f64().expect("the subject was timed")
+            });
+            let factor = if growth["what"] == "frames a second" { few / many } else { many / few };
+            close("a growth", growth["factor"].as_f64(), Some(factor));
+            grown += 1;
+        }
     }
+    // That of building is there on any machine, that of frames a second only on one with several threads.
+    assert!(grown > 0, "nothing was told to grow");
     let page = std::fs::read_to_string(desk.path().join("folder/bench.html")).expect("a page");
     assert_eq!(page.matches("<svg class=\"plot\"").count(), 4, "the scenes and three curves");
 }
@@ -326,9 +353,64 @@ fn planted_faults_are_wrong() {
     assert_eq!(picture.wrong(&short, Oath::Exact, true), 70 * 37, "a layer is too short");
 }
 
+/// The first in the order of rows, told as column and row.
+#[test]
+fn the_first_wrong_pixel_is_told() {
+    let picture = Picture::new();
+    let mut image = picture.truth.clone();
+    for [x, y] in [[30, 4], [2, 9], [31, 4]] {
+        image.rgba[y * 70 + x][0] ^= 1;
+    }
+    for oath in [Oath::Exact, Oath::rounded(Rounding::TextbookF64)] {
+        let layers = Layers { ids: &image.ids, t: &image.t, rgba: Some(&image.rgba) };
+        let checked = check(&picture.scene, &picture.camera, &picture.truth, layers, oath);
+        assert_eq!((checked.wrong, checked.first), (3, Some([30, 4])));
+    }
+}
+
+/// f32 states nothing of a sphere whose squared radius it has no number for: what is shown there is neither right nor wrong, and
+/// nobody is timed for it.
+#[test]
+fn who_states_nothing_is_neither_equal_nor_timed() {
+    let picture = Picture::new();
+    let speck = Sphere { center: [0.0; 3], radius: 1e-30, color: [200; 3] };
+    let scene = Scene::new(vec![speck], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let truth = reference::Tracer::new(reference::Arithmetic::Exact).render(&scene, &picture.camera);
+    let truth = truth.expect("it fits").image;
+    let pixels = picture.camera.size().pixels();
+    assert!(truth.ids.iter().all(|&id| id == MISS), "the speck is seen, and the test is of another");
+    let (ids, t) = (vec![0; pixels], vec![1.0; pixels]);
+    let layers = Layers { ids: &ids, t: &t, rgba: None };
+    let within = Oath::rounded(Rounding::TextbookF32);
+    let checked = check(&scene, &picture.camera, &truth, layers, within);
+    let all = pixels as u64;
+    assert_eq!(checked, Checked { differing: all, wrong: 0, not_stated: all, first: None });
+    assert_eq!(checked.verdict(), Verdict::Undecidable);
+    assert!(!checked.passes(Kind::Peer, pixels));
+
+    let mut liar = Scripted::new(&truth);
+    (liar.image.ids, liar.image.t, liar.kind, liar.oath) = (ids, t, Kind::Peer, within);
+    let input = Input { name: "a speck", frame: 0, scene: &scene, camera: &picture.camera };
+    let (rows, _) = race(vec![Box::new(liar)], &input, &truth, TWICE, &silent).expect("nobody gives up");
+    assert_eq!((rows[0].verdict, rows[0].not_stated, rows[0].timing), (Verdict::Undecidable, all, None));
+    let remark = rows[0].remark.as_deref().unwrap_or_default();
+    assert!(remark.contains("states nothing") && remark.contains(&all.to_string()), "{remark}");
+}
+
+#[test]
+fn nobody_may_go_without_a_statement_in_more_than_a_pixel_in_ten_thousand() {
+    let not_stated = |not_stated| Checked { not_stated, ..Checked::default() };
+    for kind in [Kind::Subject, Kind::Limit, Kind::Picked, Kind::Naive, Kind::Embree, Kind::Peer] {
+        assert!(
+            not_stated(100).passes(kind, 1_000_000) && !not_stated(101).passes(kind, 1_000_000),
+            "{kind:?}"
+        );
+    }
+}
+
 #[test]
 fn only_others_may_lose_a_pixel_in_ten_thousand() {
-    let wrong = |wrong| verify::bench::check::Checked { wrong, ..Default::default() };
+    let wrong = |wrong| Checked { wrong, ..Default::default() };
     for kind in [Kind::Subject, Kind::Limit] {
         assert!(wrong(0).passes(kind, 1_000_000) && !wrong(1).passes(kind, 1_000_000), "{kind:?}");
     }
@@ -336,4 +418,345 @@ fn only_others_may_lose_a_pixel_in_ten_thousand() {
         assert!(wrong(100).passes(kind, 1_000_000) && !wrong(101).passes(kind, 1_000_000), "{kind:?}");
         assert!(!wrong(1).passes(kind, 9_999), "{kind:?}");
     }
+}
+
+// ---- the clock, with contestants whose times are made up ----
+
+/// Shows a picture, the first frames of it as it is and later ones with one pixel changed, and says what time it took.
+struct Scripted {
+    kind: Kind,
+    oath: Oath,
+    image: Image,
+    frames: usize,
+    sound: usize,
+    build: Duration,
+    took: Duration,
+}
+
+impl Scripted {
+    fn new(image: &Image) -> Self {
+        let [build, took] = [1, 4].map(Duration::from_millis);
+        let (frames, sound) = (0, usize::MAX);
+        Self { kind: Kind::Naive, oath: Oath::Exact, image: image.clone(), frames, sound, build, took }
+    }
+}
+
+impl Contestant for Scripted {
+    fn name(&self) -> &str {
+        "scripted"
+    }
+
+    fn description(&self) -> String {
+        "made up".into()
+    }
+
+    fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    fn oath(&self) -> Oath {
+        self.oath
+    }
+
+    fn frame(&mut self, _: &Scene, _: &Camera) -> Result<Frame<'_>, SubjectError> {
+        if self.frames == self.sound {
+            self.image.rgba[3 * 70 + 5][0] ^= 1;
+        }
+        self.frames += 1;
+        let Image { ids, t, rgba, .. } = &self.image;
+        // Colours are painted by who promises them.
+        let rgba = matches!(self.oath, Oath::Exact).then_some(rgba.as_slice());
+        Ok(Frame { build: self.build, took: Some(self.took), layers: Layers { ids, t, rgba } })
+    }
+}
+
+const TWICE: Effort = Effort { rounds: Some(2), time: Duration::ZERO };
+
+fn silent(_: &str, _: u32) -> Box<dyn Fn() + Sync> {
+    Box::new(|| ())
+}
+
+#[test]
+fn times_are_those_of_building_of_tracing_and_of_both() {
+    let picture = Picture::new();
+    let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
+    let scripted: Box<dyn Contestant> = Box::new(Scripted::new(&picture.truth));
+    let (rows, rounds) = race(vec![scripted], &input, &picture.truth, TWICE, &silent).expect("no failure");
+    assert_eq!((rounds, rows.len(), rows[0].verdict), (2, 1, Verdict::Equal));
+    let timing = rows[0].timing.expect("it passed");
+    assert!(timing.frames >= 2, "{} frames in two rounds", timing.frames);
+    for (what, spread, expected) in
+        [("build", timing.build, 1e-3), ("trace", timing.trace, 3e-3), ("total", timing.total, 4e-3)]
+    {
+        for found in [spread.least, spread.median, spread.most] {
+            close(what, Some(found), Some(expected));
+        }
+    }
+    close("Mray/s", rows[0].mega_rays_per_second, Some(70.0 * 37.0 / 4e-3 / 1e6));
+}
+
+/// One frame is checked before the clock runs and one after it has run.
+#[test]
+fn who_is_wrong_in_a_later_frame_is_not_timed() {
+    let picture = Picture::new();
+    let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
+    let fickle = |kind, sound| {
+        let scripted = Scripted { kind, sound, ..Scripted::new(&picture.truth) };
+        Box::new(scripted) as Box<dyn Contestant>
+    };
+    let entrants = vec![
+        fickle(Kind::Subject, 1),
+        fickle(Kind::Picked, usize::MAX),
+        fickle(Kind::Naive, 0),
+        fickle(Kind::Limit, 2),
+    ];
+    let (rows, _) = race(entrants, &input, &picture.truth, TWICE, &silent).expect("nobody gives up");
+    let told: Vec<_> =
+        rows.iter().map(|row| (row.kind, row.verdict, row.first_wrong, row.timing.is_some())).collect();
+    let place = Some([5, 3]);
+    assert_eq!(
+        told,
+        [
+            (Kind::Subject, Verdict::Wrong, place, false),
+            (Kind::Picked, Verdict::Equal, None, true),
+            (Kind::Naive, Verdict::Wrong, place, false),
+            (Kind::Limit, Verdict::Wrong, place, false),
+        ]
+    );
+    let remark = |k: usize| rows[k].remark.as_deref().unwrap_or_default();
+    assert!(
+        remark(0).contains("no longer after the rounds") && remark(0).contains("(5, 3)"),
+        "{}",
+        remark(0)
+    );
+    assert!(!remark(2).contains("no longer"), "{}", remark(2));
+}
+
+#[test]
+fn a_spread_is_its_quantiles() {
+    let spread = |times: &[f64]| Spread::of(times.to_vec());
+    let told = |s: Spread| [s.least, s.lower_quartile, s.median, s.upper_quartile, s.most];
+    for (times, expected) in [
+        (&[5.0, 1.0, 4.0, 2.0, 3.0][..], [1.0, 2.0, 3.0, 4.0, 5.0]),
+        (&[1.0, 2.0, 3.0, 4.0, 100.0], [1.0, 2.0, 3.0, 4.0, 100.0]),
+        // Between two of them by the part of the way.
+        (&[8.0, 2.0, 4.0, 1.0], [1.0, 1.75, 3.0, 5.0, 8.0]),
+        (&[7.0], [7.0; 5]),
+        (&[], [0.0; 5]),
+    ] {
+        assert_eq!(told(spread(times)), expected, "{times:?}");
+    }
+    // Parts of the median, whatever the times are counted in.
+    for unit in [1e-6, 1e-3, 1.0, 1e3] {
+        let times = [1.0, 2.0, 3.0, 4.0, 100.0].map(|time| time * unit);
+        close("half the way between quartiles", Some(spread(&times).relative()), Some(1.0 / 3.0));
+    }
+}
+
+// ---- what is told, of runs made up by hand ----
+
+/// A contestant's row, timed with so many seconds, quartiles a tenth below and a fifth above.
+fn row(kind: Kind, verdict: Verdict, seconds: f64) -> Row {
+    let spread = |median: f64| Spread {
+        median,
+        lower_quartile: 0.9 * median,
+        upper_quartile: 1.2 * median,
+        least: 0.5 * median,
+        most: 2.0 * median,
+    };
+    let timing =
+        Timing { frames: 9, build: spread(seconds / 4.0), trace: spread(seconds), total: spread(seconds) };
+    Row {
+        name: format!("{kind:?}").to_lowercase(),
+        kind,
+        description: "made up".into(),
+        verdict,
+        differing: 0,
+        wrong: 0,
+        not_stated: 0,
+        first_wrong: None,
+        timing: Some(timing),
+        mega_rays_per_second: Some(1e-2 / seconds),
+        remark: None,
+    }
+}
+
+fn scene(contestants: Vec<Row>) -> SceneBench {
+    SceneBench {
+        name: "made-up".into(),
+        spheres: 3,
+        frame: 2,
+        width: 20,
+        height: 10,
+        threads: 4,
+        truth: Truth { how: "by hand".into(), rays: 200, by_full_loop: 200, hits: 100 },
+        rounds: 2,
+        ratio_to_embree: None,
+        embree_best: None,
+        ratio_to_limit: None,
+        ratio_to_picked: None,
+        picked_best: None,
+        contestants,
+    }
+}
+
+fn subject(verdict: Verdict) -> SceneBench {
+    scene(vec![row(Kind::Subject, verdict, 2e-3)])
+}
+
+fn made_up(scenes: Vec<SceneBench>, later: Vec<SceneBench>) -> Bench {
+    let points = later.into_iter().zip(1..).map(|(scene, x)| Point { x: f64::from(x), scene }).collect();
+    Bench {
+        schema_version: SCHEMA_VERSION,
+        kind: "bench",
+        environment: Environment {
+            program: "cgt".into(),
+            target: "any".into(),
+            cpu: Some("abacus".into()),
+            simd: "scalar".into(),
+            rustc: "rustc".into(),
+            threads: 4,
+            date: "2026-01-01".into(),
+            command_line: "cgt bench".into(),
+            seed: Some(1),
+        },
+        plan: "fast".into(),
+        level: "scalar".into(),
+        outsiders: Vec::new(),
+        absent: Vec::new(),
+        summary: Summary::of(&scenes),
+        scenes,
+        curves: vec![Curve { over: "spheres", points, growth: Vec::new() }],
+        baseline: None,
+    }
+}
+
+#[test]
+fn the_word_of_a_run_is_that_of_its_worst_picture() {
+    use Verdict::{Equal, NotJudged, Undecidable, WithinBound, Wrong};
+    for (scenes, later, expected) in [
+        (&[Equal, Equal][..], &[Equal][..], Equal),
+        (&[Equal, WithinBound], &[Equal], WithinBound),
+        (&[Equal], &[Equal, WithinBound], WithinBound),
+        (&[Undecidable, WithinBound], &[Equal], Undecidable),
+        (&[Equal], &[Undecidable], Undecidable),
+        (&[Equal, Wrong], &[NotJudged], Wrong),
+        (&[Equal], &[Equal, Wrong], Wrong),
+        (&[Equal], &[NotJudged], NotJudged),
+        (&[], &[], NotJudged),
+    ] {
+        let of = |verdicts: &[Verdict]| verdicts.iter().map(|verdict| subject(*verdict)).collect();
+        assert_eq!(made_up(of(scenes), of(later)).verdict(), expected, "{scenes:?}, then {later:?}");
+    }
+    assert_eq!(made_up(vec![subject(Equal)], vec![scene(Vec::new())]).verdict(), NotJudged, "nobody there");
+    let mut lacking = made_up(vec![subject(Equal)], Vec::new());
+    for (needed, expected) in [(false, Equal), (true, NotJudged)] {
+        lacking.absent = vec![Absent { judge: "embree".into(), why: "lost".into(), needed }];
+        assert_eq!(lacking.verdict(), expected, "needed: {needed}");
+    }
+}
+
+#[test]
+fn a_summary_has_the_mean_and_the_worst_of_each_ratio() {
+    let with = |[embree, limit, picked]: [Option<f64>; 3]| SceneBench {
+        ratio_to_embree: embree,
+        ratio_to_limit: limit,
+        ratio_to_picked: picked,
+        ..subject(Verdict::Equal)
+    };
+    let scenes = [
+        with([Some(18.0), Some(2.0), Some(1.1)]),
+        with([Some(8.0), Some(4.5), Some(1.3)]),
+        with([None, None, Some(1.2)]),
+    ];
+    let summary = Summary::of(&scenes);
+    close("the mean to Embree", summary.ratio_to_embree_mean, Some(12.0));
+    close("the mean to the limit", summary.ratio_to_limit_mean, Some(3.0));
+    let worst = [summary.ratio_to_embree_least, summary.ratio_to_limit_most, summary.ratio_to_picked_most];
+    assert_eq!(worst, [Some(8.0), Some(4.5), Some(1.3)]);
+    assert_eq!(Summary::of(&scenes[3..]), Summary::default());
+}
+
+#[test]
+fn the_table_tells_times_by_those_of_the_subject() {
+    let rows = [(Kind::Subject, 2e-3), (Kind::Limit, 1e-3), (Kind::Peer, 5e-3)];
+    let rows = rows.map(|(kind, seconds)| row(kind, Verdict::Equal, seconds));
+    let table = text(&made_up(vec![scene(rows.into())], Vec::new()), false);
+    let told = |name: &str| -> Vec<String> {
+        let line = table.lines().find(|line| line.starts_with(&format!("made-up {name} ")));
+        let line = line.unwrap_or_else(|| panic!("{name} has no line: {table}"));
+        let words: Vec<_> = line.split_whitespace().rev().take(3).map(str::to_owned).collect();
+        words.into_iter().rev().collect()
+    };
+    // Half the way between quartiles in a hundred of the median, Mray/s, times the subject's.
+    let number = |word: &String| word.parse::<f64>().unwrap_or_else(|_| panic!("{word}: {table}"));
+    for (name, expected) in
+        [("subject", [15.0, 5.0, 1.0]), ("limit", [15.0, 10.0, 0.5]), ("peer", [15.0, 2.0, 2.5])]
+    {
+        for (word, expected) in told(name).iter().zip(expected) {
+            assert!((number(word) / expected - 1.0).abs() < 1e-3, "{name}: {word} for {expected}: {table}");
+        }
+    }
+}
+
+/// A tenth may be lost, and no more.
+#[test]
+fn slower_is_by_more_than_the_tolerance() {
+    let step = |now| Step { scene: "made-up".into(), measure: "Mray/s", before: 100.0, now };
+    for (now, tolerance, slower) in [
+        (91.0, 0.1, false),
+        (89.0, 0.1, true),
+        (100.0, 0.0, false),
+        (99.9, 0.0, true),
+        (200.0, 0.1, false),
+        (71.0, 0.3, false),
+        (69.0, 0.3, true),
+    ] {
+        assert_eq!(step(now).is_slower(tolerance), slower, "{now} by {tolerance}");
+        assert_eq!(step(now).sentence(tolerance).contains(": slower"), slower, "{now} by {tolerance}");
+    }
+    assert!(step(89.0).sentence(0.1).contains("-11.0 %"), "{}", step(89.0).sentence(0.1));
+}
+
+#[test]
+fn a_baseline_of_something_else_is_refused() {
+    let bench = made_up(vec![subject(Verdict::Equal)], Vec::new());
+    let honest = serde_json::to_value(&bench).expect("JSON");
+    let held = |changes: &[(&str, Value)]| {
+        let mut earlier = honest.clone();
+        for (place, value) in changes {
+            *earlier.pointer_mut(place).unwrap_or_else(|| panic!("{place} is not there")) = value.clone();
+        }
+        compare(&earlier.to_string(), &bench)
+    };
+    let faster =
+        held(&[("/scenes/0/contestants/0/mega_rays_per_second", json!(9.5))]).expect("the same scene");
+    assert_eq!(faster, [Step { scene: "made-up".into(), measure: "Mray/s", before: 9.5, now: 1e-2 / 2e-3 }]);
+    for (place, value) in
+        [("/environment/cpu", json!("another")), ("/plan", json!("safe")), ("/level", json!("avx2"))]
+    {
+        assert!(matches!(held(&[(place, value)]), Err(BaselineError::Other { .. })), "{place}");
+    }
+    for (part, value) in [
+        ("name", json!("another")),
+        ("spheres", json!(4)),
+        ("frame", json!(3)),
+        ("width", json!(21)),
+        ("height", json!(11)),
+        ("threads", json!(8)),
+    ] {
+        let place = format!("/scenes/0/{part}");
+        assert!(matches!(held(&[(&place, value)]), Err(BaselineError::Nothing)), "{part}");
+    }
+    // The ratio to Embree where both have it.
+    let mut ours = bench.clone();
+    ours.scenes[0].ratio_to_embree = Some(12.0);
+    let theirs = |ratio: Value| {
+        let mut earlier = honest.clone();
+        earlier["scenes"][0]["ratio_to_embree"] = ratio;
+        compare(&earlier.to_string(), &ours).expect("the same scene").remove(0)
+    };
+    let told = |step: Step| (step.measure, step.before, step.now);
+    assert_eq!(told(theirs(json!(11.0))), ("ratio to Embree", 11.0, 12.0));
+    assert_eq!(told(theirs(Value::Null)).0, "Mray/s");
 }

@@ -5,6 +5,9 @@
 //! not that of its id and t. Embree, asked as its users ask it, crosses boxes without a margin and may lose a ray on an
 //! edge between two of them; to leave it out for that would leave out its fastest ways, in favour of the tracer under
 //! test. So of those who are not the subject one pixel in [`ALLOWED`] may be wrong, and how many are is reported.
+//!
+//! Where a sphere is so small or so far that a form states nothing of it, any answer would pass. So of anybody one pixel in
+//! [`ALLOWED`] may go without a statement, or its picture was not checked, and it is not timed.
 
 use super::contestant::{Kind, Layers, Oath};
 use crate::judge::outside::Stand;
@@ -45,10 +48,12 @@ impl Checked {
     /// Whether it may be timed.
     #[must_use]
     pub fn passes(&self, kind: Kind, pixels: usize) -> bool {
-        match kind {
-            Kind::Subject | Kind::Limit | Kind::Picked | Kind::Naive => self.wrong == 0,
-            Kind::Embree | Kind::Peer => self.wrong <= (pixels / ALLOWED) as u64,
-        }
+        let few = (pixels / ALLOWED) as u64;
+        let wrong = match kind {
+            Kind::Subject | Kind::Limit | Kind::Picked | Kind::Naive => 0,
+            Kind::Embree | Kind::Peer => few,
+        };
+        self.wrong <= wrong && self.not_stated <= few
     }
 
     fn and(self, other: Self) -> Self {

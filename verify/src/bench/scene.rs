@@ -1,5 +1,5 @@
-//! One frame of one scene: the exact picture is made, every contestant's is checked against it, and those that pass are
-//! timed in turn.
+//! One frame of one scene: the exact picture is made, every contestant's is checked against it, those that pass are timed in
+//! turn, and then checked once more: memory that is used again may hold what no first frame shows.
 //!
 //! Embree can be asked in many ways. All are checked and run a heat; only the best [`KEPT`] there are timed in rounds, and of
 //! the others their heat is told. Who is left out gives back its memory at once: a tree over ten million spheres takes more
@@ -87,10 +87,27 @@ pub fn bench(
     let Input { scene, camera, .. } = *input;
     let (image, truth) = truth(scene, camera, setting.seed, progress)?;
     let entrants = entrants(input, setting, &image).map_err(BenchError::Contestant)?;
+    let (rows, rounds) = race(entrants, input, &image, setting.effort, progress)?;
+    Ok(told(input, setting, truth, rounds, rows))
+}
+
+/// Checks contestants against the exact picture and times those that pass. Gives a row of each, in their order, and the number of
+/// rounds.
+///
+/// # Errors
+/// [`BenchError::Contestant`] if one gives up in the middle.
+pub fn race(
+    entrants: Vec<Box<dyn Contestant>>,
+    input: &Input<'_>,
+    truth: &Image,
+    effort: Effort,
+    progress: Progress<'_>,
+) -> Result<(Vec<Row>, usize), BenchError> {
+    let Input { scene, camera, .. } = *input;
     let tick = progress("check", u32::try_from(entrants.len()).unwrap_or(u32::MAX));
     let (mut rows, mut passed) = (Vec::new(), Vec::new());
     for mut entrant in entrants {
-        let row = checked(entrant.as_mut(), input, &image);
+        let row = checked(entrant.as_mut(), input, truth);
         if row.remark.is_none() {
             let heat =
                 if row.kind == Kind::Embree { heat(entrant.as_mut(), input)? } else { Taken::default() };
@@ -107,16 +124,23 @@ pub fn bench(
     }
     let mut measured = 0;
     if !entrants.is_empty() {
-        let least = setting.effort.rounds.unwrap_or(super::rounds::LEAST);
+        let least = effort.rounds.unwrap_or(super::rounds::LEAST);
         let tick = progress("rounds", u32::try_from(least).unwrap_or(u32::MAX));
-        let outcome = rounds(&mut entrants, scene, camera, setting.effort, &*tick);
+        let outcome = rounds(&mut entrants, scene, camera, effort, &*tick);
         let (taken, count) = outcome.map_err(BenchError::Contestant)?;
         measured = count;
-        for (place, taken) in places.into_iter().zip(&taken) {
-            time(&mut rows[place], taken, camera);
+        for ((entrant, place), taken) in entrants.iter_mut().zip(places).zip(&taken) {
+            let after = checked(entrant.as_mut(), input, truth);
+            match &after.remark {
+                None => time(&mut rows[place], taken, camera),
+                Some(why) => {
+                    let remark = Some(format!("Passed at first, and no longer after the rounds. {why}"));
+                    rows[place] = Row { remark, ..after };
+                }
+            }
         }
     }
-    Ok(told(input, setting, truth, measured, rows))
+    Ok((rows, measured))
 }
 
 /// The exact picture, and how it came about.
@@ -192,9 +216,15 @@ pub(super) fn checked(entrant: &mut dyn Contestant, input: &Input<'_>, truth: &I
                 (checked.differing, checked.wrong, checked.not_stated);
             row.first_wrong = checked.first;
             if !checked.passes(kind, input.camera.size().pixels()) {
-                let [x, y] = checked.first.unwrap_or_default();
-                row.remark =
-                    Some(format!("{} pixels are wrong, first ({x}, {y}). Not timed.", checked.wrong));
+                row.remark = Some(match checked.first {
+                    Some([x, y]) => {
+                        format!("{} pixels are wrong, first ({x}, {y}). Not timed.", checked.wrong)
+                    }
+                    None => format!(
+                        "Its rounding states nothing of its answer in {} pixels. Not timed.",
+                        checked.not_stated
+                    ),
+                });
             }
         }
     }
