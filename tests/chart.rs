@@ -1,12 +1,15 @@
 //! Does the chart of speed against error show what the judge finds, of every method, from every distance? No time is asserted.
 
-use contract::Size;
+use contract::{Camera, Image, Scene, Size};
 use optimized::{Level, Plan};
 use reference::{Arithmetic, Tracer};
+use std::time::Duration;
 use verify::ablation::data::BaseRows;
 use verify::ablation::model::{Without, model, steps};
-use verify::ablation::{Ablation, ablate};
-use verify::chart::{Asked, Chart, Distance, SCHEMA_VERSION, View, measure};
+use verify::ablation::{Ablation, Row, ablate, told};
+use verify::bench::contestant::{Contestant, Frame, Kind, Layers, Oath};
+use verify::bench::ours::picked;
+use verify::chart::{Asked, Chart, Distance, Point, SCHEMA_VERSION, View, measure};
 use verify::judge::compare::compare;
 use verify::methods::{Family, Method, charted};
 use verify::report::Environment;
@@ -16,6 +19,8 @@ use verify::scenes::read::Loaded;
 use verify::spu::feature::Feature;
 use verify::spu::predict::Policy;
 use verify::spu::survey::{Input, survey};
+use verify::subject::SubjectError;
+use verify::verdict::{Comparison, UlpSummary};
 
 fn loaded() -> Loaded {
     Source::parse("uniform:60:1").and_then(|source| source.load()).expect("generated")
@@ -111,6 +116,186 @@ fn who_promises_the_truth_and_is_wrong_is_named() {
     assert!(broken.len() == 1 && broken[0].contains("liar") && broken[0].contains("wrong ids"), "{broken:?}");
 }
 
+/// Shows the exact picture, later frames of it with another colour, and says what time it took: 1 ms to build of 4.
+struct Scripted {
+    image: Image,
+    frames: usize,
+    sound: usize,
+}
+
+impl Contestant for Scripted {
+    fn name(&self) -> &str {
+        "scripted"
+    }
+
+    fn description(&self) -> String {
+        "made up".into()
+    }
+
+    fn kind(&self) -> Kind {
+        Kind::Naive
+    }
+
+    fn oath(&self) -> Oath {
+        Oath::Exact
+    }
+
+    fn frame(&mut self, _: &Scene, _: &Camera) -> Result<Frame<'_>, SubjectError> {
+        if self.frames == self.sound {
+            self.image.rgba[0][0] ^= 1;
+        }
+        self.frames += 1;
+        let Image { ids, t, rgba, .. } = &self.image;
+        let [build, took] = [1, 4].map(Duration::from_millis);
+        Ok(Frame { build, took: Some(took), layers: Layers { ids, t, rgba: Some(rgba) } })
+    }
+}
+
+fn scripted(name: &str, family: Family, sound: usize) -> Method {
+    Method::made(name, family, move |scene, camera| {
+        let image = Tracer::new(Arithmetic::Exact).render(scene, camera)?.image;
+        Ok(Box::new(Scripted { image, frames: 0, sound }))
+    })
+}
+
+/// A frame's time is all of it. Whose picture is another one after the rounds has no time, and has broken its promise.
+#[test]
+fn a_time_is_that_of_whole_frames_and_of_who_stays_right() {
+    let methods = [
+        scripted("steady", Family::Exact, usize::MAX),
+        scripted("fickle", Family::Exact, 1),
+        scripted("fickle and unsworn", Family::Foreign, 1),
+    ];
+    let view = view(&methods, 1.0);
+    let [steady, fickle, unsworn] = &view.points[..] else { panic!("{} points", view.points.len()) };
+    let (found, expected) = (steady.ns_per_ray.expect("it was timed"), 4e6 / (50.0 * 37.0));
+    assert!((found / expected - 1.0).abs() < 1e-9, "{found} ns a ray of {expected}");
+    for fickle in [fickle, unsworn] {
+        assert_eq!(fickle.ns_per_ray, None, "{}", fickle.method);
+        assert_eq!(fickle.comparison.as_ref().map(|c| c.wrong_color), Some(1), "{}", fickle.method);
+        assert!(
+            fickle.remark.as_ref().is_some_and(|remark| remark.contains("another picture")),
+            "{fickle:?}"
+        );
+    }
+    let broken = chart(vec![view]).broken_promises();
+    assert!(
+        broken.len() == 1 && broken[0].contains("fickle") && broken[0].contains("1 colours"),
+        "{broken:?}"
+    );
+}
+
+/// Each number another, so that none can stand for another.
+fn comparison() -> Comparison {
+    Comparison {
+        pixels: 1001,
+        hits: 502,
+        wrong_ids: 33,
+        missing: 10,
+        extra: 11,
+        swapped: 12,
+        wrong_t: 44,
+        t_ulp: UlpSummary { count: 400, median: 5, p99: 66, max: 777 },
+        wrong_color: 88,
+        color_max: 99,
+        first_wrong: None,
+        unexplained: 0,
+        undecidable: 0,
+    }
+}
+
+fn point(method: &str, ns: Option<f64>) -> Point {
+    Point {
+        method: method.into(),
+        family: Family::Foreign,
+        exact: false,
+        description: String::new(),
+        ns_per_ray: ns,
+        spu_cycles_per_ray: None,
+        comparison: None,
+        paints: true,
+        remark: None,
+    }
+}
+
+fn seen(points: Vec<Point>) -> View {
+    View {
+        scene: "made up".into(),
+        frame: 3,
+        spheres: 60,
+        size: [50, 37],
+        times_as_far: 10.0,
+        radii: 123.5,
+        hits: 502,
+        rounds: 2,
+        points,
+    }
+}
+
+/// Whoever promised the truth keeps it only by a picture in which something was compared and all is right.
+#[test]
+fn a_promise_is_broken_by_any_layer_by_no_picture_and_by_nothing_compared() {
+    let right = Comparison { pixels: 1001, hits: 502, ..Comparison::default() };
+    for (what, comparison, broken) in [
+        ("all right", Some(right.clone()), 0),
+        ("an id", Some(Comparison { wrong_ids: 1, ..right.clone() }), 1),
+        ("a t", Some(Comparison { wrong_t: 1, ..right.clone() }), 1),
+        ("a colour", Some(Comparison { wrong_color: 1, ..right.clone() }), 1),
+        ("nothing compared", Some(Comparison::default()), 1),
+        ("no picture", None, 1),
+    ] {
+        let exact = Point { exact: true, comparison: comparison.clone(), ..point("sworn", None) };
+        let other = Point { comparison, ..point("unsworn", None) };
+        let found = chart(vec![seen(vec![exact, other])]).broken_promises();
+        assert_eq!(found.len(), broken, "{what}: {found:?}");
+        assert!(found.iter().all(|line| line.contains(", sworn: ")), "{what}: {found:?}");
+    }
+}
+
+#[test]
+fn the_table_has_each_number_under_its_heading() {
+    let full = Point {
+        ns_per_ray: Some(4.25),
+        spu_cycles_per_ray: Some([7.5, 9.5]),
+        comparison: Some(comparison()),
+        ..point("own", None)
+    };
+    let unpainted = Point { paints: false, ..full.clone() };
+    let csv = chart(vec![seen(vec![full, unpainted, point("silent", None)])]).csv().expect("in memory");
+    let csv = String::from_utf8(csv).expect("text");
+    let rows: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    let expected = [
+        ("scene", "made up"),
+        ("frame", "3"),
+        ("spheres", "60"),
+        ("width", "50"),
+        ("height", "37"),
+        ("times_as_far", "10"),
+        ("radii", "123.5"),
+        ("method", "own"),
+        ("family", "foreign"),
+        ("ns_per_ray", "4.25"),
+        ("spu_cycles_least", "7.5"),
+        ("spu_cycles_most", "9.5"),
+        ("pixels", "1001"),
+        ("hits", "502"),
+        ("wrong_ids", "33"),
+        ("wrong_t", "44"),
+        ("t_ulp_median", "5"),
+        ("t_ulp_p99", "66"),
+        ("t_ulp_max", "777"),
+        ("wrong_colours", "88"),
+        ("colour_max", "99"),
+    ];
+    let told = |row: usize| rows[0].iter().copied().zip(rows[row].iter().copied()).collect::<Vec<_>>();
+    assert_eq!(told(1), expected);
+    // Who paints no colours has none wrong, and who gave no picture has no number.
+    let colours = |heading: &str| heading.contains("colour");
+    let bare = expected.map(|(heading, cell)| (heading, if colours(heading) { "" } else { cell }));
+    assert_eq!(told(2), bare);
+    assert!(told(3)[9..].iter().all(|(_, cell)| cell.is_empty()), "{:?}", told(3));
+}
+
 #[test]
 fn data_and_page_have_every_point() {
     let level = Level::best().expect("a level");
@@ -183,6 +368,68 @@ fn an_ablation_changes_one_thing_at_a_time() {
     let paper = found.bases.iter().find(|base| base.name == "paper").expect("it is a base");
     let mended = |choice: &str| paper.rows.iter().find(|row| row.choice == choice).and_then(|row| row.wrong);
     assert!(mended("lists") <= paper.wrong && mended("box range") <= paper.wrong, "{paper:?}");
+}
+
+/// Ratios and promises of a view that is made up.
+#[test]
+fn an_ablation_divides_by_its_base_and_the_best_is_the_fastest() {
+    let loaded = loaded();
+    let scene = &loaded.animation.frames()[0];
+    let right = Comparison { pixels: 1850, hits: 502, ..Comparison::default() };
+    let pictured = |name: &str, ns: f64, comparison| Point {
+        spu_cycles_per_ray: Some([ns, 8.0 * ns]),
+        comparison: Some(comparison),
+        ..point(name, Some(ns))
+    };
+    let names: Vec<String> = picked(scene).into_iter().map(|(name, _)| name).collect();
+    let view = seen(vec![
+        pictured("fast-blocks", 5.0, right.clone()),
+        pictured("fast-blocks, voxelizer: box range", 10.0, right.clone()),
+        pictured("fast-blocks, voxelizer: exact overlap", 2.5, Comparison { wrong_t: 1, ..right.clone() }),
+        Point { remark: Some("Did not begin.".into()), ..point("fast-blocks, grid: 4 cells", None) },
+        pictured("fast-blocks, arithmetic: textbook f32", 5.0, comparison()),
+        pictured("for_scene", 4.5, right.clone()),
+        pictured(&names[1], 30.0, right.clone()),
+        pictured(&names[2], 3.0, right.clone()),
+        point(&names[3], None),
+    ]);
+    let found = told(scene, &view);
+    assert_eq!((found.best_picked.as_ref(), found.chosen_by_best), (Some(&names[2]), Some(1.5)));
+    let base = &found.bases[1];
+    assert_eq!(
+        (base.name.as_str(), base.ns_per_ray, base.wrong, base.kept),
+        ("fast-blocks", Some(5.0), Some(0), Some(true))
+    );
+    let row = |choice: &str| {
+        let row = base.rows.iter().find(|row| row.choice == choice);
+        let Row { time, cycles, wrong, kept, .. } = row.unwrap_or_else(|| panic!("{choice} is no variant"));
+        (*time, *cycles, *wrong, *kept)
+    };
+    assert_eq!(row("box range"), (Some(2.0), Some(2.0), Some(0), Some(true)));
+    assert_eq!(row("exact overlap"), (Some(0.5), Some(0.5), Some(0), Some(false)));
+    assert_eq!(row("4 cells"), (None, None, None, Some(false)), "who gives no picture keeps nothing");
+    assert_eq!(row("textbook f32"), (Some(1.0), Some(1.0), Some(33), None), "it promises no truth");
+    let scenes = vec![found];
+    let ablation = Ablation {
+        schema_version: 1,
+        kind: "ablation",
+        environment: environment(),
+        scenes,
+        model: Vec::new(),
+    };
+    let csv = String::from_utf8(ablation.csv().expect("in memory")).expect("text");
+    let line =
+        |start: &str| csv.lines().find(|line| line.starts_with(start)).unwrap_or_else(|| panic!("{csv}"));
+    assert_eq!(line("scene,"), "scene,base,concern,choice,times_the_time,times_the_cycles,wrong_ids");
+    assert_eq!(
+        line("made up,fast-blocks,arithmetic,textbook f32,"),
+        "made up,fast-blocks,arithmetic,textbook f32,1,1,33"
+    );
+    assert_eq!(
+        line("made up,fast-blocks,voxelizer,exact overlap,"),
+        "made up,fast-blocks,voxelizer,exact overlap,0.5,0.5,0"
+    );
+    assert_eq!(line("made up,fast-blocks,grid,4 cells,"), "made up,fast-blocks,grid,4 cells,,,");
 }
 
 #[test]

@@ -427,6 +427,34 @@ fn every_command_of_the_page_runs() {
     }
 }
 
+/// Who is said to give the truth is held to it by charts and maps too; of whom nothing was said they only show how wrong it is. A run in
+/// which nothing was compared has no verdict.
+#[test]
+fn a_promise_of_the_truth_is_asked_for_in_charts_and_maps() {
+    if !has("python3") {
+        return;
+    }
+    let desk = desk();
+    let liar = python(desk.path(), "liar.py", &broken("(i, t) if", "(i + 100, t) if"));
+    let chart = ["chart", "uniform:20:1", "--size", "24x16", "--rounds", "1", "--sample", "8"];
+    let maps = ["stability", "uniform:20:1", "--only", "angle", "--methods", "mine", "--rays", "64"];
+    for (words, command, promise, code, named) in [
+        (&chart[..], &liar, "exact", 1, true),
+        (&chart, &liar, "f64", 0, false),
+        (&maps, &liar, "exact", 1, true),
+        (&maps, &liar, "f64", 0, false),
+        (&maps, &"mine=true".to_owned(), "exact", 1, true),
+        (&maps, &"mine=true".to_owned(), "f64", 3, false),
+    ] {
+        let output = cgt(desk.path(), &[words, &["--subject-cmd", command, "--promise", promise]].concat());
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        let what = format!("{} of {command} that promises {promise}", words[0]);
+        assert_eq!(output.status.code(), Some(code), "{what}: {}", said(&output));
+        assert_eq!(told.contains("wrong where it promised not to be"), named, "{what}: {told}");
+        assert!(!named || told.lines().all(|line| line.contains(", mine: ")), "{what}: {told}");
+    }
+}
+
 #[test]
 fn names_and_options_that_make_no_sense_are_refused() {
     let desk = tempfile::tempdir().expect("a temporary folder");

@@ -57,6 +57,7 @@ fn parts() -> Made<Vec<Part>> {
     let line = |name: &str, family, each: u64| Line {
         method: name.into(),
         family,
+        exact: false,
         counts: (0..24).map(|k| counts(k * each)).collect(),
         breakdown: verify::stability::breakdown::Breakdown::default(),
     };

@@ -1,10 +1,13 @@
 //! Do the maps of where methods break show the breakdowns that are known, and nothing where there is nothing?
 
-use contract::Size;
+use contract::{Camera, Image, MISS, Scene, Size};
 use optimized::{Level, Plan};
+use reference::{Arithmetic, Tracer};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
 use verify::advice::advice;
+use verify::bench::contestant::{Contestant, Frame, Kind, Layers, Oath};
 use verify::chart::{Chart, Point, View};
 use verify::methods::{Family, Method, swept};
 use verify::report::Environment;
@@ -12,9 +15,11 @@ use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::seed::{count, seed};
 use verify::stability::breakdown::breakdown;
-use verify::stability::data::Count;
+use verify::stability::data::{Count, Curve, Line, Map};
 use verify::stability::measure::Named;
+use verify::stability::text::text;
 use verify::stability::{Asked, SCHEMA_VERSION, Stability, stability, steps};
+use verify::subject::SubjectError;
 
 fn named(word: &str) -> Named {
     let loaded = Source::parse(word).and_then(|source| source.load()).expect("bundled or generated");
@@ -34,6 +39,10 @@ fn run(
     let asked = Asked { methods, level, rays, seed, scenes, only: &[] };
     let (curves, maps) = stability(&asked, &|| _ = ticks.fetch_add(1, Ordering::Relaxed));
     assert_eq!(ticks.into_inner(), steps(&asked), "the progress bar does not end where it should");
+    told(rays, seed, curves, maps)
+}
+
+fn told(rays: u64, seed: u64, curves: Vec<Curve>, maps: Vec<Map>) -> Stability {
     let environment = Environment {
         program: "cgt".into(),
         target: "any".into(),
@@ -81,16 +90,18 @@ fn the_exact_method_breaks_nowhere() {
     eprintln!("judged {rays} rays of the exact method, {hits} of them hits");
     assert!(exact.iter().all(|count| count.rays > 0), "some value was not judged");
     assert!(hits > rays / 5, "hardly anything was hit");
-    for map in ["grids", "packets"] {
+    // Who is asked for the truth in a map is known by its row.
+    for (map, expected) in [("grids", &["2juy, exact"][..]), ("packets", &["2juy"]), ("assumptions", &[])] {
         let map = found.map(map).expect("it was measured");
-        let exact = map
-            .rows
-            .iter()
-            .zip(&map.counts)
-            .filter(|(name, _)| map.name == "packets" || name.contains("exact"));
-        assert!(
-            exact.clone().count() == 1 && exact.flat_map(|(_, row)| row).all(|c| c.rays > 0 && c.wrong == 0)
+        let exact = map.rows.iter().zip(&map.exact).zip(&map.counts).filter(|((_, exact), _)| **exact);
+        assert_eq!(
+            exact.clone().map(|((name, _), _)| name.as_str()).collect::<Vec<_>>(),
+            expected,
+            "{}",
+            map.name
         );
+        assert!(exact.flat_map(|(_, row)| row).all(|c| c.rays > 0 && c.wrong == 0), "{map:?}");
+        assert_eq!(map.exact.len(), map.rows.len(), "{}", map.name);
     }
 }
 
@@ -216,6 +227,7 @@ fn advice_is_what_was_measured() {
     let ns = |method: &str, ns: f64| Point {
         method: method.into(),
         family: Family::Exact,
+        exact: true,
         description: String::new(),
         ns_per_ray: Some(ns),
         spu_cycles_per_ray: None,
@@ -265,6 +277,240 @@ fn advice_is_what_was_measured() {
         .filter(|line| line.method == "fast")
         .for_each(|line| line.counts[3] = Count::default());
     assert!(!advice(&blind, &chart)[0].never_wrong);
+    let mut untold = found.clone();
+    untold.curves[0].by_truth = false;
+    assert!(!advice(&untold, &chart)[0].never_wrong, "no truth was asked, and it is never wrong");
+    // To give no picture is no way to be right.
+    let mut refusing = found.clone();
+    let curve = &mut refusing.curves[0];
+    let line = curve.lines.iter_mut().find(|line| line.method == "fast").expect("measured");
+    line.counts[7..].fill(Count { refused: 1, ..Count::default() });
+    let said = &advice(&refusing, &chart)[0];
+    let limits: Vec<_> = said.holds_within.iter().filter(|limit| limit.contains(": at most ")).collect();
+    assert!(!said.never_wrong && limits.len() == 1, "{said:?}");
     assert!(verify::stability::page::page(&blind).expect("filled in").contains(": not measured</title>"));
     assert!(!verify::stability::page::page(&found).expect("filled in").contains(": not measured</title>"));
+}
+
+// ---- methods and runs that are made up ----
+
+/// The exact picture with some of its t moved: of its hits, counted from 0, those of which `moved` says by how many units in the last place.
+struct Scripted {
+    moved: fn(usize) -> u32,
+    image: Option<Image>,
+}
+
+impl Contestant for Scripted {
+    fn name(&self) -> &str {
+        "scripted"
+    }
+
+    fn description(&self) -> String {
+        "made up".into()
+    }
+
+    fn kind(&self) -> Kind {
+        Kind::Naive
+    }
+
+    fn oath(&self) -> Oath {
+        Oath::Exact
+    }
+
+    fn frame(&mut self, scene: &Scene, camera: &Camera) -> Result<Frame<'_>, SubjectError> {
+        let image = self.image.insert(Tracer::new(Arithmetic::Exact).threads(1).render(scene, camera)?.image);
+        let hits = image.ids.iter().zip(&mut image.t).filter(|(id, _)| **id != MISS);
+        for (k, (_, t)) in hits.enumerate() {
+            *t = f32::from_bits(t.to_bits() + (self.moved)(k));
+        }
+        let layers = Layers { ids: &image.ids, t: &image.t, rgba: None };
+        Ok(Frame { build: Duration::ZERO, took: None, layers })
+    }
+}
+
+fn moved(name: &str, moved: fn(usize) -> u32) -> Method {
+    Method::made(name, Family::F64, move |_, _| Ok(Box::new(Scripted { moved, image: None })))
+}
+
+/// Of a hundred errors in order the 99th is told: not their middle, and not the farthest.
+#[test]
+fn errors_of_t_are_told_at_99_in_100() {
+    let methods = |_| {
+        vec![
+            moved("none", |_| 0),
+            moved("two in a hundred", |k| if k % 50 == 0 { 900 } else { 0 }),
+            moved("one in a picture", |k| if k == 0 { 5000 } else { 0 }),
+            Method::made("refuses", Family::Exact, |_, _| Err("it would not".into())),
+        ]
+    };
+    let (level, only) = (Level::best().expect("a level"), ["angle".to_owned()]);
+    let asked = Asked { methods: &methods, level, rays: 2048, seed: 3, scenes: &[], only: &only };
+    let (curves, maps) = stability(&asked, &|| ());
+    assert!(curves.len() == 1 && maps.is_empty());
+    let counts = |name: &str| &curves[0].line(name).expect("it took part").counts;
+    for (name, p99) in [("none", 0), ("two in a hundred", 900), ("one in a picture", 0)] {
+        assert_eq!(counts(name).len(), curves[0].values.len());
+        for count in counts(name) {
+            assert_eq!((count.rays, count.wrong, count.refused), (2048, 0, 0), "{name}");
+            assert!(count.hits > 400, "hardly a hit");
+            assert_eq!(count.t_ulp_p99, Some(p99), "{name}: {count:?}");
+        }
+    }
+    let wrong = |name: &str| counts(name).iter().map(|count| count.wrong_t).collect::<Vec<_>>();
+    assert!(wrong("none").iter().all(|wrong| *wrong == Some(0)));
+    assert!(wrong("one in a picture").iter().all(|wrong| *wrong == Some(2)), "one in each of two pictures");
+    for count in counts("refuses") {
+        assert_eq!(*count, Count { refused: 2, ..Count::default() });
+    }
+    let found = told(2048, 3, curves.clone(), maps);
+    assert_eq!(found.broken_promises().len(), curves[0].values.len(), "who only refuses is not named");
+    assert_eq!(found.compared(), 3 * 2048 * curves[0].values.len() as u64);
+}
+
+/// Each number another, so that none can stand for another.
+const COUNT: Count =
+    Count { rays: 1000, hits: 500, wrong: 3, wrong_t: Some(44), t_ulp_p99: Some(55), refused: 6 };
+/// Asked, and all of it right.
+const RIGHT: Count =
+    Count { rays: 1000, hits: 500, wrong: 0, wrong_t: Some(0), t_ulp_p99: Some(0), refused: 0 };
+
+fn curve(lines: Vec<(&str, bool, Vec<Count>)>) -> Curve {
+    let values = vec![0.25, 0.5, 1.0, 2.0, 4.0];
+    let line = |(method, exact, counts): (&str, bool, Vec<Count>)| {
+        let rates: Vec<_> = counts.iter().map(Count::rate).collect();
+        let breakdown = breakdown(&values, &rates, 1.0);
+        Line { method: method.into(), family: Family::Foreign, exact, counts, breakdown }
+    };
+    Curve {
+        name: "turned-up".into(),
+        title: "Turned up".into(),
+        axis: "how far".into(),
+        what: "Something is turned up.".into(),
+        by_truth: true,
+        easy: 1.0,
+        lines: lines.into_iter().map(line).collect(),
+        values,
+        marks: Vec::new(),
+    }
+}
+
+fn map(exact: [bool; 2], counts: [[Count; 2]; 2]) -> Map {
+    Map {
+        name: "mapped".into(),
+        title: "Mapped".into(),
+        what: "Two things are turned up.".into(),
+        axis: "how many".into(),
+        columns: vec!["one".into(), "two".into()],
+        rows: vec!["first row".into(), "second row".into()],
+        exact: exact.into(),
+        counts: counts.map(Vec::from).into(),
+        marks: Vec::new(),
+        row_marks: Vec::new(),
+    }
+}
+
+/// In curves and in maps, and by who promised it alone: to be wrong in an id or a t breaks it, to refuse, and to be asked nothing.
+#[test]
+fn a_promise_of_the_truth_is_kept_by_answers_that_are_right() {
+    for (what, count, broken) in [
+        ("all is right", RIGHT, false),
+        ("t is not compared", Count { wrong_t: None, t_ulp_p99: None, ..RIGHT }, false),
+        ("another sphere", Count { wrong: 1, ..RIGHT }, true),
+        ("another t", Count { wrong_t: Some(1), ..RIGHT }, true),
+        ("refused once", Count { refused: 1, ..RIGHT }, true),
+        ("refused always", Count { refused: 24, ..Count::default() }, true),
+        ("nothing was asked", Count::default(), true),
+    ] {
+        let row = vec![RIGHT, RIGHT, RIGHT, count, RIGHT];
+        let curves =
+            |exact| vec![curve(vec![("steady", true, vec![RIGHT; 5]), ("asked", exact, row.clone())])];
+        let maps = |exact| vec![map([true, exact], [[RIGHT; 2], [RIGHT, count]])];
+        let named = |curves, maps| told(1000, 1, curves, maps).broken_promises();
+        let by_curve = named(curves(true), Vec::new());
+        assert_eq!(by_curve.len(), usize::from(broken), "{what}, on a curve: {by_curve:?}");
+        assert!(by_curve.iter().all(|line| line.starts_with("turned-up at 2, asked: ")), "{by_curve:?}");
+        let by_map = named(Vec::new(), maps(true));
+        assert_eq!(by_map.len(), usize::from(broken), "{what}, on a map: {by_map:?}");
+        assert!(by_map.iter().all(|line| line.starts_with("mapped at two, second row: ")), "{by_map:?}");
+        assert_eq!(named(curves(true), maps(true)).len(), 2 * usize::from(broken), "{what}");
+        assert_eq!(
+            named(curves(false), maps(false)),
+            Vec::<String>::new(),
+            "{what}: nobody promised anything"
+        );
+    }
+}
+
+#[test]
+fn the_table_has_each_number_under_its_heading() {
+    let bare = Count { wrong_t: None, t_ulp_p99: None, ..COUNT };
+    let curves = vec![curve(vec![("own", false, vec![RIGHT, COUNT, bare, RIGHT, RIGHT])])];
+    let found = told(1000, 1, curves, vec![map([false; 2], [[RIGHT; 2], [RIGHT, COUNT]])]);
+    let csv = String::from_utf8(found.csv().expect("in memory")).expect("text");
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines[0], "what,method_or_row,value,rays,hits,wrong,wrong_t,t_ulp_p99,refused");
+    assert_eq!(
+        lines[1..4],
+        [
+            "turned-up,own,0.25,1000,500,0,0,0,0",
+            "turned-up,own,0.5,1000,500,3,44,55,6",
+            "turned-up,own,1,1000,500,3,,,6"
+        ]
+    );
+    assert_eq!(
+        lines[6..9],
+        [
+            "mapped,first row,one,1000,500,0,0,0,0",
+            "mapped,first row,two,1000,500,0,0,0,0",
+            "mapped,second row,one,1000,500,0,0,0,0",
+        ]
+    );
+    assert_eq!(lines[9], "mapped,second row,two,1000,500,3,44,55,6");
+    assert_eq!(lines.len(), 10);
+}
+
+/// "Never" is said of who answered everywhere, on the terminal and on the page, and toward the end that is meant.
+#[test]
+fn who_refused_is_not_never_wrong() {
+    let refused = Count { refused: 3, ..Count::default() };
+    let curve = curve(vec![
+        ("right", true, vec![RIGHT; 5]),
+        ("refuses-above", false, vec![RIGHT, RIGHT, RIGHT, RIGHT, refused]),
+        ("refuses-one", false, vec![Count { refused: 1, ..RIGHT }, RIGHT, RIGHT, RIGHT, RIGHT]),
+        ("unasked-below", false, vec![Count::default(), RIGHT, RIGHT, RIGHT, RIGHT]),
+        ("wrong-first", false, vec![RIGHT, RIGHT, RIGHT, Count { wrong: 1000, ..RIGHT }, refused]),
+    ]);
+    let said = |name: &str| [false, true].map(|up| curve.never(curve.line(name).expect("a line"), up));
+    assert_eq!(said("right"), ["never"; 2]);
+    assert_eq!(said("refuses-above"), ["never", "refused"]);
+    assert_eq!(said("refuses-one"), ["refused", "never"]);
+    assert_eq!(said("unasked-below"), ["–", "never"]);
+    let found = told(1000, 1, vec![curve.clone()], Vec::new());
+    let table = text(&found);
+    for (name, word) in [
+        ("right", "never"),
+        ("refuses-above", "refused"),
+        ("refuses-one", "refused"),
+        ("unasked-below", "–"),
+        ("wrong-first", "2"),
+    ] {
+        let line = table.lines().find(|line| line.trim_start().starts_with(name)).expect("a line of its own");
+        let words: Vec<&str> = line.split_whitespace().collect();
+        assert_eq!([words[1], words[3], words[4]], [word; 3], "{line}");
+    }
+    let page = verify::stability::page::page(&found).expect("filled in");
+    for (name, below, above) in [
+        ("right", "never", "never"),
+        ("refuses-above", "never", "refused"),
+        ("refuses-one", "refused", "never"),
+        ("unasked-below", "–", "never"),
+        ("wrong-first", "never", "2"),
+    ] {
+        let row = page.lines().find(|line| line.contains(&format!("<th scope=\"row\">{name}</th>")));
+        let row = row.unwrap_or_else(|| panic!("{name} has no row"));
+        let cells: Vec<&str> =
+            row.split("<td").skip(1).map(|cell| cell.split(['>', '<']).nth(1).unwrap_or_default()).collect();
+        // Once in a million is not seen with so few rays.
+        assert_eq!(cells, [below, "–", below, below, above, "–", above, above], "{name}: {row}");
+    }
 }

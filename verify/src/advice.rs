@@ -6,7 +6,7 @@ use crate::methods::Family;
 use crate::plot::power;
 use crate::report::words::figure;
 use crate::stability::Stability;
-use crate::stability::data::Curve;
+use crate::stability::data::{Count, Curve};
 use askama::Template;
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ use serde::Serialize;
 pub struct Advice {
     /// What it is called here.
     pub method: String,
-    /// Whether it was wrong anywhere at all.
+    /// Whether it showed the right sphere everywhere, and was asked.
     pub never_wrong: bool,
     /// Fewer than one ray in [`OFTEN`] is wrong as long as all of these hold.
     pub holds_within: Vec<String>,
@@ -71,22 +71,23 @@ pub fn advice(stability: &Stability, chart: &Chart) -> Vec<Advice> {
     all
 }
 
-/// Whether no curve of truth saw it wrong, and every one saw it.
+/// Whether no curve of truth saw it show another sphere, every one saw it, and there is one.
 fn never_wrong(stability: &Stability, method: &str) -> bool {
-    let mut curves = stability.curves.iter().filter(|curve| curve.by_truth);
-    curves.all(|curve| {
+    let curves: Vec<&Curve> = stability.curves.iter().filter(|curve| curve.by_truth).collect();
+    let judged = |curve: &&Curve| {
         curve.line(method).is_some_and(|line| {
             line.counts.iter().all(|count| count.rays > 0 && count.wrong + count.refused == 0)
         })
-    })
+    };
+    !curves.is_empty() && curves.iter().all(judged)
 }
 
-/// What a curve says a method needs; none if it was hardly ever wrong there, or the curve is no matter of truth. Of tangency nothing is
-/// said: nobody can choose it.
+/// What a curve says a method needs; none if it was hardly ever wrong there, or the curve is no matter of truth. To refuse is as bad as to
+/// be wrong. Of tangency nothing is said: nobody can choose it.
 fn limit(curve: &Curve, method: &str) -> Option<String> {
     let line = curve.line(method).filter(|_| curve.by_truth && curve.name != "tangency")?;
-    let wrong: Vec<bool> =
-        line.counts.iter().map(|count| count.rate().is_some_and(|rate| rate * OFTEN >= 1.0)).collect();
+    let often = |count: &Count| count.refused > 0 || count.rate().is_some_and(|rate| rate * OFTEN >= 1.0);
+    let wrong: Vec<bool> = line.counts.iter().map(often).collect();
     if !wrong.contains(&true) {
         return None;
     }

@@ -93,6 +93,8 @@ pub struct Method {
     pub name: String,
     /// What decides its answers.
     pub family: Family,
+    /// Whether it promises the truth, bit for bit: all of [`Family::Exact`] do, and a program of which it was said.
+    pub exact: bool,
     /// The plan as the SPU model can run it, of those that have one.
     pub on_spu: Option<Plan>,
     maker: Maker,
@@ -113,7 +115,8 @@ impl Method {
         family: Family,
         maker: impl Fn(&Scene, &Camera) -> Result<Box<dyn Contestant>, SubjectError> + Send + Sync + 'static,
     ) -> Self {
-        Self { name: name.into(), family, on_spu: None, maker: Box::new(maker) }
+        let exact = family == Family::Exact;
+        Self { name: name.into(), family, exact, on_spu: None, maker: Box::new(maker) }
     }
 
     /// The reference in an arithmetic.

@@ -41,19 +41,25 @@ pub fn ablate(
     methods.push(method(CHOSEN.into(), best.plan));
     methods.extend(picks.iter().map(|(name, plan)| method(name.clone(), *plan)));
     let asked = Asked { name, frame, scene, methods: &methods, rounds, every, seed };
-    let view = measure(&asked, at, progress)?;
-    let time = |name: &str| point(&view, name).and_then(|point| point.ns_per_ray);
+    Ok(told(scene, &measure(&asked, at, progress)?))
+}
+
+/// What a view of all these methods says of each choice. A view that lacks one says nothing of it.
+#[must_use]
+pub fn told(scene: &Scene, view: &View) -> SceneAblation {
+    let (best, picks) = (chosen(NamedPlan::Fast, scene), picked(scene));
+    let time = |name: &str| point(view, name).and_then(|point| point.ns_per_ray);
     let fastest = picks.iter().filter_map(|(name, _)| Some((name, time(name)?)));
     let fastest = fastest.min_by(|a, b| a.1.total_cmp(&b.1));
-    Ok(SceneAblation {
-        scene: name.into(),
+    SceneAblation {
+        scene: view.scene.clone(),
         spheres: scene.spheres().len(),
         size: view.size,
-        bases: bases().map(|base| rows(&view, &base)).into(),
+        bases: bases().map(|base| rows(view, &base)).into(),
         chosen_by_best: time(CHOSEN).zip(fastest).map(|(chosen, (_, best))| chosen / best),
         best_picked: fastest.map(|(name, _)| name.clone()),
         reasons: best.reasons.iter().map(ToString::to_string).collect(),
-    })
+    }
 }
 
 fn named(base: &str, concern: &str, choice: &str) -> String {

@@ -13,4 +13,4 @@ pub mod text;
 pub mod variants;
 
 pub use data::{Ablation, Row, SCHEMA_VERSION, SceneAblation};
-pub use measure::ablate;
+pub use measure::{ablate, told};

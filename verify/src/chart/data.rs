@@ -7,7 +7,7 @@ use crate::verdict::Comparison;
 use serde::Serialize;
 
 /// Version of the layout of the JSON file.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// All of a run.
 #[derive(Clone, Debug, Serialize)]
@@ -54,6 +54,8 @@ pub struct Point {
     pub method: String,
     /// What decides its answers.
     pub family: Family,
+    /// Whether it promises the truth, bit for bit.
+    pub exact: bool,
     /// What it is.
     pub description: String,
     /// Nanoseconds a ray, building included, by the median frame.
@@ -78,13 +80,14 @@ impl Point {
 }
 
 impl Chart {
-    /// Methods that decide exactly, and showed something else than the exact picture, or nothing: each with what it did, where.
+    /// Methods that promise the truth, and showed something else than the exact picture, or nothing: each with what it did, where.
     #[must_use]
     pub fn broken_promises(&self) -> Vec<String> {
         let mut broken = Vec::new();
         for view in &self.views {
-            for point in view.points.iter().filter(|point| point.family == Family::Exact) {
+            for point in view.points.iter().filter(|point| point.exact) {
                 let what = match &point.comparison {
+                    Some(c) if c.pixels == 0 => "no pixel was compared".into(),
                     Some(c) if c.wrong_ids + c.wrong_t + c.wrong_color == 0 => continue,
                     Some(c) => {
                         format!("{} wrong ids, {} t, {} colours", c.wrong_ids, c.wrong_t, c.wrong_color)

@@ -4,7 +4,7 @@
 use super::{Answers, Foreign};
 use crate::bench::contestant::{Contestant, Frame, Kind, Layers, Oath};
 use crate::methods::{Family, Method};
-use crate::subject::{Subject, SubjectError};
+use crate::subject::{Promise, Subject, SubjectError};
 use contract::{Camera, Scene};
 use std::sync::Arc;
 use std::time::Duration;
@@ -13,9 +13,11 @@ use std::time::Duration;
 #[must_use]
 pub fn method(foreign: &Arc<Foreign>, threads: usize) -> Method {
     let own = foreign.clone();
-    Method::made(foreign.name(), Family::Foreign, move |_, _| {
+    let mut method = Method::made(foreign.name(), Family::Foreign, move |_, _| {
         Ok(Box::new(Entrant { foreign: own.clone(), threads, answers: None }))
-    })
+    });
+    method.exact = foreign.promise() == Promise::Exact;
+    method
 }
 
 struct Entrant {

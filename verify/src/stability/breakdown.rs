@@ -19,15 +19,7 @@ pub struct Breakdown {
 /// Of rates along an axis; `None` where nothing was measured, which breaks nothing. The easy value itself belongs to both ways.
 #[must_use]
 pub fn breakdown(values: &[f64], rates: &[Option<f64>], easy: f64) -> Breakdown {
-    let near = |value: &f64| (value.ln() - easy.ln()).abs();
-    let linear = |value: &f64| (value - easy).abs();
-    let logarithmic = easy > 0.0 && values.iter().all(|value| *value > 0.0);
-    let from = (0..values.len())
-        .min_by(|i, j| {
-            let of = |k: &usize| if logarithmic { near(&values[*k]) } else { linear(&values[*k]) };
-            of(i).total_cmp(&of(j))
-        })
-        .unwrap_or(0);
+    let from = nearest(values, easy);
     let reached = |order: &mut dyn Iterator<Item = usize>| {
         let mut found = [None; 4];
         for k in order {
@@ -41,4 +33,18 @@ pub fn breakdown(values: &[f64], rates: &[Option<f64>], easy: f64) -> Breakdown 
         found
     };
     Breakdown { up: reached(&mut (from..values.len())), down: reached(&mut (0..=from).rev()) }
+}
+
+/// Where on an axis the value is that is nearest to the easy one.
+#[must_use]
+pub fn nearest(values: &[f64], easy: f64) -> usize {
+    let near = |value: &f64| (value.ln() - easy.ln()).abs();
+    let linear = |value: &f64| (value - easy).abs();
+    let logarithmic = easy > 0.0 && values.iter().all(|value| *value > 0.0);
+    (0..values.len())
+        .min_by(|i, j| {
+            let of = |k: &usize| if logarithmic { near(&values[*k]) } else { linear(&values[*k]) };
+            of(i).total_cmp(&of(j))
+        })
+        .unwrap_or(0)
 }

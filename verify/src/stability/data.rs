@@ -1,13 +1,15 @@
 //! What was found, as plain data: the one source of the page, the JSON file and the CSV file. A changed field means a new
 //! [`SCHEMA_VERSION`].
 
-use super::breakdown::Breakdown;
+use super::breakdown::{Breakdown, nearest};
 use crate::methods::Family;
+use crate::report::words::NONE;
 use crate::report::{Absent, Environment};
 use serde::Serialize;
+use std::fmt::Display;
 
 /// Version of the layout of the JSON file.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// All of a run.
 #[derive(Clone, Debug, Serialize)]
@@ -58,6 +60,8 @@ pub struct Line {
     pub method: String,
     /// What decides its answers.
     pub family: Family,
+    /// Whether it promises the truth, bit for bit.
+    pub exact: bool,
     /// At each value.
     pub counts: Vec<Count>,
     /// Where it breaks.
@@ -96,6 +100,8 @@ pub struct Map {
     pub columns: Vec<String>,
     /// Rows.
     pub rows: Vec<String>,
+    /// Of each row, whether its method promises the truth.
+    pub exact: Vec<bool>,
     /// Row by row.
     pub counts: Vec<Vec<Count>>,
     /// The first column beyond an assumption, and what it is.
@@ -110,6 +116,12 @@ impl Count {
     pub fn rate(&self) -> Option<f64> {
         (self.rays > 0).then(|| self.wrong as f64 / self.rays as f64)
     }
+
+    /// Whether a promise of the truth is kept: there was something to compare, and all of it is right.
+    #[must_use]
+    pub fn keeps(&self) -> bool {
+        self.rays > 0 && self.wrong + self.refused + self.wrong_t.unwrap_or(0) == 0
+    }
 }
 
 impl Curve {
@@ -118,23 +130,59 @@ impl Curve {
     pub fn line(&self, method: &str) -> Option<&Line> {
         self.lines.iter().find(|line| line.method == method)
     }
+
+    /// What is said of a line that was seen wrong nowhere from the easy value on, toward the axis's end or its beginning. Who
+    /// did not answer was not right.
+    #[must_use]
+    pub fn never(&self, line: &Line, up: bool) -> &'static str {
+        let easy = nearest(&self.values, self.easy);
+        let way = line.counts.iter().enumerate().filter(|(k, _)| if up { *k >= easy } else { *k <= easy });
+        let any = |of: fn(&Count) -> bool| way.clone().any(|(_, count)| of(count));
+        match () {
+            () if any(|count| count.refused > 0) => "refused",
+            () if any(|count| count.rays == 0) => NONE,
+            () => "never",
+        }
+    }
 }
 
 impl Stability {
-    /// Methods that decide exactly and were wrong, refused, or changed their mind: each with what it did, where.
+    /// Methods that promise the truth and were wrong, refused, changed their mind, or were asked nothing: each with what it did,
+    /// where.
     #[must_use]
     pub fn broken_promises(&self) -> Vec<String> {
         let mut broken = Vec::new();
+        let mut ask = |what: &str, method: &str, value: &dyn Display, count: &Count| {
+            if !count.keeps() {
+                broken.push(format!("{what} at {value}, {method}: {count:?}"));
+            }
+        };
         for curve in &self.curves {
-            for line in curve.lines.iter().filter(|line| line.family == Family::Exact) {
+            for line in curve.lines.iter().filter(|line| line.exact) {
                 for (value, count) in curve.values.iter().zip(&line.counts) {
-                    if count.wrong > 0 || count.refused > 0 || count.wrong_t.is_some_and(|wrong| wrong > 0) {
-                        broken.push(format!("{} at {value}, {}: {count:?}", curve.name, line.method));
-                    }
+                    ask(&curve.name, &line.method, value, count);
+                }
+            }
+        }
+        for map in &self.maps {
+            let rows = map.rows.iter().zip(&map.counts).zip(&map.exact);
+            for ((row, counts), _) in rows.filter(|(_, exact)| **exact) {
+                for (column, count) in map.columns.iter().zip(counts) {
+                    ask(&map.name, row, column, count);
                 }
             }
         }
         broken
+    }
+
+    /// Rays that were compared in all. A run without any has said nothing.
+    #[must_use]
+    pub fn compared(&self) -> u64 {
+        let lines = self.curves.iter().flat_map(|curve| &curve.lines).flat_map(|line| &line.counts);
+        lines
+            .chain(self.maps.iter().flat_map(|map| map.counts.iter().flatten()))
+            .map(|count| count.rays)
+            .sum()
     }
 
     /// A curve by its name.

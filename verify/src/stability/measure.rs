@@ -230,6 +230,7 @@ fn lines(methods: &[Method], values: &[f64], columns: &[Vec<Count>], easy: f64) 
         Line {
             method: method.name.clone(),
             family: method.family,
+            exact: method.exact,
             breakdown: breakdown(values, &rates, easy),
             counts,
         }
@@ -266,6 +267,7 @@ fn assumptions(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
         axis: "balls about one cell".into(),
         columns: CROWDS.iter().map(ToString::to_string).collect(),
         rows: RATIOS.iter().map(|ratio| format!("{ratio} cells wide")).collect(),
+        exact: vec![false; RATIOS.len()],
         counts: RATIOS.par_iter().enumerate().map(row).collect(),
         marks: CROWDS.iter().position(|count| *count > 16).map(|k| (k, "more than 16 slots".to_owned())).into_iter().collect(),
         row_marks: RATIOS.iter().position(|ratio| *ratio > 1.0).into_iter().collect(),
@@ -275,15 +277,19 @@ fn assumptions(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
 /// Whole pictures of named scenes by plans with growing grids.
 fn grids(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
     let textbook = Plan { arithmetic: Form::Textbook.into(), ..Plan::safe() };
-    let plans = [("paper", Plan::paper()), ("safe, same form", textbook), ("exact", Plan::fast())];
-    let (mut rows, mut counts) = (Vec::new(), Vec::new());
+    let plans = [
+        ("paper", Family::Paper, Plan::paper()),
+        ("safe, same form", Family::Textbook, textbook),
+        ("exact", Family::Exact, Plan::fast()),
+    ];
+    let (mut rows, mut exact, mut counts) = (Vec::new(), Vec::new(), Vec::new());
     for named in asked.scenes {
         let shot = Shot { scene: named.scene.clone(), camera: named.camera };
         let truth = Tracer::new(Arithmetic::Exact).render(&shot.scene, &shot.camera);
-        for (name, plan) in plans {
+        for (name, family, plan) in plans {
             let at = |cells: &u8| {
                 let plan = with_cells(plan, *cells);
-                let method = Method::grid(name, Family::Paper, move |_| plan, asked.level, 1);
+                let method = Method::grid(name, family, move |_| plan, asked.level, 1);
                 let mut tally = Tally::default();
                 if let Ok(truth) = &truth {
                     tally.against(&truth.image, answer(&method, &shot));
@@ -291,6 +297,7 @@ fn grids(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
                 tally.done()
             };
             rows.push(format!("{}, {name}", named.name));
+            exact.push(family == Family::Exact);
             counts.push(GRIDS.iter().map(at).collect());
         }
         tick();
@@ -302,6 +309,7 @@ fn grids(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
         axis: "cells on each axis".into(),
         columns: GRIDS.iter().map(ToString::to_string).collect(),
         rows,
+        exact,
         counts,
         marks: GRIDS.iter().position(|n| *n == 16).map(|k| (k, "the paper's 16".to_owned())).into_iter().collect(),
         row_marks: Vec::new(),
@@ -339,6 +347,7 @@ fn packets(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
         what: "Whole pictures by the exact plan with packets of so many rays, from the paper's 4x4 to tiles of blocks.".into(),
         axis: "rays of a packet".into(),
         columns: packets.iter().map(word).collect(),
+        exact: vec![true; rows.len()],
         rows,
         counts,
         marks: Vec::new(),

@@ -1,7 +1,7 @@
 //! A stability run as a part of a page: where each method breaks in one table, then each sweep as a heat map and as curves.
 
 use super::breakdown::WORDS;
-use super::data::{Count, Curve, Map, Stability};
+use super::data::{Count, Curve, Line, Map, Stability};
 use crate::methods::Family;
 use crate::plot::heat::{Cell, Heat, heat, share};
 use crate::plot::{Axes, Mark, STYLE, Scaling, Series, alone, plot, power};
@@ -97,10 +97,13 @@ fn breakdowns(curve: &Curve) -> Breakdowns {
     // What cannot be seen with so few rays is not "never".
     let most = curve.lines.iter().flat_map(|line| &line.counts).map(|c| c.rays).max().unwrap_or(0);
     let seen = |limit: usize| limit != 1 || most >= 1_000_000;
-    let word = |limit: usize, value: Option<f64>| match value {
-        _ if !seen(limit) => NONE.to_owned(),
-        Some(value) => power(value),
-        None => "never".into(),
+    let word = |line: &Line, up: bool, limit: usize| {
+        let value = if up { line.breakdown.up[limit] } else { line.breakdown.down[limit] };
+        match value {
+            _ if !seen(limit) => NONE.to_owned(),
+            Some(value) => power(value),
+            None => curve.never(line, up).into(),
+        }
     };
     Breakdowns {
         title: curve.title.clone(),
@@ -110,9 +113,7 @@ fn breakdowns(curve: &Curve) -> Breakdowns {
             .lines
             .iter()
             .map(|line| {
-                let of = |up: bool| if up { line.breakdown.up } else { line.breakdown.down };
-                let cells =
-                    ways.iter().flat_map(|(up, _)| (0..4).map(|k| word(k, of(*up)[k])).collect::<Vec<_>>());
+                let cells = ways.iter().flat_map(|(up, _)| [0, 1, 2, 3].map(|k| word(line, *up, k)));
                 (line.method.clone(), cells.collect())
             })
             .collect(),

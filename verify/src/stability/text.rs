@@ -24,7 +24,10 @@ pub fn text(stability: &Stability) -> String {
             let (up, down) = (line.breakdown.up, line.breakdown.down);
             let either = |k: usize| match (down[k], up[k]) {
                 _ if k == 1 && compared < 1_000_000 => "–".to_owned(),
-                (None, None) => "never".to_owned(),
+                (None, None) => {
+                    let ways = [true, false].map(|up| curve.never(line, up));
+                    ways.into_iter().find(|said| *said != "never").unwrap_or("never").to_owned()
+                }
                 (Some(a), Some(b)) if a.to_bits() != b.to_bits() => format!("{}, {}", power(a), power(b)),
                 (Some(a), _) | (None, Some(a)) => power(a),
             };

@@ -6,6 +6,7 @@ use crate::args::{Stability as Args, View};
 use crate::environment::environment;
 use crate::{Failure, progress};
 use optimized::Level;
+use std::io::Write;
 use std::process::ExitCode;
 use verify::foreign::method;
 use verify::methods::{Method, swept};
@@ -29,7 +30,12 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     let shown = (page::page(&found)?, text::text(&found));
     files::chapter("stability", &args.out, &found, found.csv()?, (&shown.0, &shown.1))?;
-    Ok(super::kept(&found.broken_promises()))
+    let broken = found.broken_promises();
+    if broken.is_empty() && found.compared() == 0 {
+        _ = writeln!(std::io::stderr(), "no verdict: no method gave a picture that could be compared");
+        return Ok(ExitCode::from(3));
+    }
+    Ok(super::kept(&broken))
 }
 
 /// Measures all of it.
