@@ -646,7 +646,10 @@ fn the_word_of_a_run_is_that_of_its_worst_picture() {
         (&[], &[], NotJudged),
     ] {
         let of = |verdicts: &[Verdict]| verdicts.iter().map(|verdict| subject(*verdict)).collect();
-        assert_eq!(made_up(of(scenes), of(later)).verdict(), expected, "{scenes:?}, then {later:?}");
+        let bench = made_up(of(scenes), of(later));
+        assert_eq!(bench.verdict(), expected, "{scenes:?}, then {later:?}");
+        let broken = [Wrong, NotJudged].contains(&expected);
+        assert_eq!(!bench.broken_promises().is_empty(), broken, "{scenes:?}, then {later:?}");
     }
     assert_eq!(made_up(vec![subject(Equal)], vec![scene(Vec::new())]).verdict(), NotJudged, "nobody there");
     let mut lacking = made_up(vec![subject(Equal)], Vec::new());

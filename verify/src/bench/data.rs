@@ -237,18 +237,15 @@ impl Bench {
     pub fn verdict(&self) -> Verdict {
         let scenes =
             self.scenes.iter().chain(self.curves.iter().flat_map(|c| c.points.iter().map(|p| &p.scene)));
-        let subjects: Vec<_> = scenes.map(SceneBench::subject).collect();
-        let is = |verdict| subjects.iter().flatten().any(|row| row.verdict == verdict);
-        let missing = self.absent.iter().any(|absent| absent.needed);
-        match () {
-            () if is(Verdict::Wrong) => Verdict::Wrong,
-            () if missing || subjects.is_empty() || subjects.iter().any(Option::is_none) => {
-                Verdict::NotJudged
-            }
-            () if is(Verdict::NotJudged) => Verdict::NotJudged,
-            () if is(Verdict::Undecidable) => Verdict::Undecidable,
-            () if is(Verdict::WithinBound) => Verdict::WithinBound,
-            () => Verdict::Equal,
-        }
+        let subjects = scenes.map(|scene| scene.subject().map_or(Verdict::NotJudged, |row| row.verdict));
+        let missing = self.absent.iter().filter(|absent| absent.needed).map(|_| Verdict::NotJudged);
+        Verdict::worst_of(subjects.chain(missing))
+    }
+
+    /// What a report has to say of it if the tracer under test was wrong or was not judged.
+    #[must_use]
+    pub fn broken_promises(&self) -> Vec<String> {
+        let broken = matches!(self.verdict(), Verdict::Wrong | Verdict::NotJudged);
+        broken.then(|| "the tracer that is timed gave a wrong picture, or none".into()).into_iter().collect()
     }
 }

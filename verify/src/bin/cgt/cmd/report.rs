@@ -25,7 +25,6 @@ use verify::spu::curves::{Asked as Curves, POINTS, curves};
 use verify::spu::data::{self, Report as Machine};
 use verify::spu::page::part as spu_part;
 use verify::subject::{Grid, NAIVE, NamedPlan, Subject};
-use verify::verdict::Verdict;
 use verify::{ablation, advice, prove as proofs};
 
 /// Pixels where no size is asked for, and of a film.
@@ -188,9 +187,7 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
         let benched =
             bench::measured(&args::Bench { rounds: Some(args.rounds), ..args::Bench::of(names, view) })?;
         files::data("bench", folder, &benched, None)?;
-        if matches!(benched.verdict(), Verdict::Wrong | Verdict::NotJudged) {
-            broken.push("the tracer that is timed gave a wrong picture, or none".into());
-        }
+        broken.extend(benched.broken_promises());
         parts.push(part("bench", "How fast", verify::bench::page::part(&benched)?));
     }
     if wanted("proofs") {
