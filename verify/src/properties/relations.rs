@@ -70,6 +70,9 @@ impl Relation {
     ///
     /// # Errors
     /// What differs, in a sentence.
+    ///
+    /// # Panics
+    /// Never: an image's pixels can be numbered.
     pub fn hold(self, case: &Case, rng: &mut impl Rng) -> Result<u64, String> {
         // What refuses one frame may take another that says the same.
         if matches!(case.asked, Asked::Grid { plan, .. } if plan.on_event == OnEvent::Refuse) {
