@@ -38,6 +38,20 @@ fn a_bad_sphere_is_refused_by_id_and_value() {
     }
 }
 
+/// Of several things the first is told: the light, then the spheres in their order, of each its centre.
+#[test]
+fn the_first_thing_that_is_wrong_is_told() {
+    let flat = |radius| Sphere { radius, ..BALL };
+    let lost = Sphere { center: [0.0, f32::INFINITY, 0.0], radius: -2.0, ..BALL };
+    let error = scene(vec![BALL, flat(0.0), BALL, flat(-1.0), lost]).expect_err("two radii");
+    assert_eq!(error, SceneError::Radius { sphere: 1, radius: 0.0 });
+    let error = scene(vec![BALL, lost, flat(-1.0)]).expect_err("a centre and two radii");
+    assert_eq!(error, SceneError::Center { sphere: 1, center: lost.center });
+    let light = [0.0, f32::INFINITY, 1.0];
+    let error = Scene::new(vec![flat(0.0)], [0; 3], light).expect_err("a light and a radius");
+    assert_eq!(error, SceneError::Light { light });
+}
+
 #[test]
 fn extreme_but_finite_scenes_are_let_in() {
     let least = f32::from_bits(1);
@@ -78,6 +92,33 @@ fn sizes_have_limits() {
         assert_eq!([size.width(), size.height()], [width, height]);
         assert_eq!(size.pixels(), width as usize * height as usize);
     }
+}
+
+/// The variable that says that the test below is run with little memory.
+const LITTLE_MEMORY: &str = "CGT_LITTLE_MEMORY";
+
+/// Asks for the largest image; run by the next test with less memory than it needs.
+#[test]
+fn the_largest_image_is_asked_for() {
+    if std::env::var_os(LITTLE_MEMORY).is_some() {
+        let size = Size::new(16_384, 8192).expect("within limits");
+        let error = Image::new(size, [0; 3]).expect_err("more than there is");
+        eprintln!("asked for {size:?}: {error}");
+    }
+}
+
+/// An image for which there is no memory is refused with its size and all that it needs.
+#[test]
+#[cfg(target_os = "linux")]
+fn an_image_that_memory_does_not_hold_is_refused() {
+    let script = "ulimit -v 524288 && exec \"$0\" --exact the_largest_image_is_asked_for --nocapture";
+    let mut child = std::process::Command::new("sh");
+    child.args(["-c", script]).arg(std::env::current_exe().expect("this program")).env(LITTLE_MEMORY, "1");
+    let output = child.output().expect("a shell");
+    let said = String::from_utf8_lossy(&output.stderr);
+    // Twelve bytes a pixel.
+    let refused = "no memory for an image of 16384x8192 pixels (1610612736 bytes)";
+    assert!(output.status.success() && said.contains(refused), "{said}");
 }
 
 #[test]

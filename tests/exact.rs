@@ -1,11 +1,12 @@
 //! Is the truth true? The filtered exact tracer against the unfiltered one, and both against answers that are
 //! known by construction.
 
-use contract::{DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
+use contract::{Camera, DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
 use rand::RngExt;
 use rayon::prelude::*;
 use reference::{Arithmetic, Ray, Tracer, Undecided};
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU32, Ordering};
 use verify::directed::{KINDS, Kind, aimed, case};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
@@ -99,6 +100,52 @@ fn threads_change_nothing() {
             assert_eq!(one.image.rgba, other.image.rgba, "{arithmetic:?}, {threads} threads");
             assert_eq!(one.undecided, other.undecided, "{arithmetic:?}, {threads} threads");
         }
+    }
+}
+
+/// The variable that says that the test below is run with little memory.
+const LITTLE_MEMORY: &str = "CGT_LITTLE_MEMORY";
+
+/// Asks for more threads than there is memory for their stacks; run by the next test with so little.
+#[test]
+fn too_many_threads_are_asked_for() {
+    if std::env::var_os(LITTLE_MEMORY).is_some() {
+        let scene = Scene::new(vec![], [0; 3], DEFAULT_LIGHT).expect("empty");
+        let size = Size::new(3, 17).expect("small");
+        let camera = Camera::new([0.0; 3], [-1.0, 1.0, -1.0], [0.5, 0.0, 0.0], [0.0, -0.1, 0.0], size);
+        let tracer = Tracer::new(Arithmetic::Exact).threads(5_000);
+        let error = tracer.render(&scene, &camera.expect("a camera")).expect_err("more than there can be");
+        eprintln!("asked for 5000: {error}");
+    }
+}
+
+/// Threads that cannot be had are refused with the number that was asked for.
+#[test]
+#[cfg(target_os = "linux")]
+fn threads_that_cannot_be_had_are_refused() {
+    let script = "ulimit -v 1048576 && exec \"$0\" --exact too_many_threads_are_asked_for --nocapture";
+    let mut child = std::process::Command::new("sh");
+    child.args(["-c", script]).arg(std::env::current_exe().expect("this program")).env(LITTLE_MEMORY, "1");
+    let output = child.output().expect("a shell");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.contains("cannot start 5000 threads: "), "{said}");
+}
+
+/// Each row is told once, by whatever thread.
+#[test]
+fn every_row_is_told() {
+    let scene = Scene::new(vec![], [0; 3], DEFAULT_LIGHT).expect("empty");
+    let size = Size::new(3, 17).expect("small");
+    let camera = Camera::new([0.0; 3], [-1.0, 1.0, -1.0], [0.5, 0.0, 0.0], [0.0, -0.1, 0.0], size);
+    let camera = camera.expect("a camera");
+    for threads in [0, 1, 3] {
+        let rows = AtomicU32::new(0);
+        let row_done = || {
+            rows.fetch_add(1, Ordering::Relaxed);
+        };
+        let tracer = Tracer::new(Arithmetic::Exact).threads(threads);
+        tracer.render_with(&scene, &camera, &row_done).expect("small");
+        assert_eq!(rows.into_inner(), 17, "{threads} threads");
     }
 }
 
@@ -226,4 +273,79 @@ fn integers_are_hardly_asked_where_nothing_is_close() {
     assert!(hits > 10_000, "CGT_SEED={seed}: {hits} pixels hit, nothing is at stake");
     let Undecided { hits, orders, roundings } = rendering.undecided;
     assert!(hits + orders + roundings < 20, "CGT_SEED={seed}: {:?} of 57,600 rays", rendering.undecided);
+}
+
+/// By rule 5 f64 rounds t after the nearest is chosen: of two roots that are one in f32 the lower one's sphere is seen, whatever its id.
+#[test]
+fn f64_compares_roots_before_they_are_rounded() {
+    let ulp = f32::EPSILON;
+    let ball = |radius| Sphere { center: [0.0, 0.0, 5.0], radius, color: [9; 3] };
+    let ray = Ray { eye: [0.0; 3], dir: [0.0, 0.0, 1.0] };
+    // The roots are 4 + 2⁻²³ and 4 + 2⁻²⁴, every step is exact.
+    let [farther, nearer] = [ball(1.0 - ulp), ball(1.0 - ulp / 2.0)];
+    for (spheres, id) in [([farther, nearer], 1), ([nearer, farther], 0)] {
+        let scene = Scene::new(spheres.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
+        for arithmetic in [Arithmetic::F64, Arithmetic::Exact, Arithmetic::ExactUnfiltered] {
+            let hit = Tracer::new(arithmetic).trace(&ray, &scene).map(|hit| (hit.id, hit.t));
+            assert_eq!(hit, Some((id, 4.0)), "{arithmetic:?}");
+        }
+    }
+}
+
+/// The eye is on one sphere's surface, so that its far root is known by integers alone and to a step of f32 either way; the other's root
+/// lies between that one and the f32 it is rounded to, a sixth of a step from both.
+#[test]
+fn roots_within_a_step_of_each_other_are_told_apart() {
+    let ray = Ray { eye: [0.0; 3], dir: [1.0; 3] };
+    // Far roots 14/3 and 22/3, a third of a step above their f32 and as much below.
+    for (center, radius, far, other_is_nearer) in
+        [([3.0, 4.0, 0.0], 5.0, 14.0 / 3.0, true), ([2.0, 3.0, 6.0], 7.0, 22.0 / 3.0, false)]
+    {
+        let on_surface = Sphere { center, radius, color: [9; 3] };
+        #[allow(clippy::cast_possible_truncation, reason = "it is rounded as t is")]
+        let rounded = far as f32;
+        let root = f64::midpoint(far, f64::from(rounded));
+        let step = f64::from(rounded.next_up()) - f64::from(rounded);
+        // Head on the near root is that of the centre less r / √3.
+        #[allow(clippy::cast_possible_truncation, reason = "the rounding is a tenth of a step")]
+        let other = {
+            let at = (far * 4.0).round() / 4.0 + 0.25;
+            Sphere { center: [at as f32; 3], radius: ((at - root) * 3f64.sqrt()) as f32, color: [9; 3] }
+        };
+        let off = f64::from(other.center[0]) - f64::from(other.radius) / 3f64.sqrt() - root;
+        assert!(off.abs() < step / 10.0, "{off:e} off, of a step of {step:e}");
+        for (spheres, id) in [
+            ([on_surface, other], u32::from(other_is_nearer)),
+            ([other, on_surface], u32::from(!other_is_nearer)),
+        ] {
+            let scene = Scene::new(spheres.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
+            for arithmetic in [Arithmetic::ExactUnfiltered, Arithmetic::Exact] {
+                let hit = Tracer::new(arithmetic).trace(&ray, &scene).map(|hit| (hit.id, hit.t));
+                assert_eq!(hit, Some((id, rounded)), "{arithmetic:?}, {spheres:?}");
+            }
+        }
+    }
+}
+
+/// A ray without direction hits nothing, from within a sphere and from its surface too.
+#[test]
+fn no_direction_hits_nothing() {
+    for center in [[0.0; 3], [3.0, 4.0, 0.0], [30.0, 40.0, 0.0]] {
+        let sphere = Sphere { center, radius: 5.0, color: [9; 3] };
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("valid");
+        for dir in [[0.0; 3], [-0.0; 3]] {
+            for arithmetic in [
+                Arithmetic::Exact,
+                Arithmetic::ExactUnfiltered,
+                Arithmetic::F64,
+                Arithmetic::F32Textbook,
+                Arithmetic::F32Perpendicular,
+                Arithmetic::SpuTextbook,
+                Arithmetic::SpuPerpendicular,
+            ] {
+                let hit = Tracer::new(arithmetic).trace(&Ray { eye: [0.0; 3], dir }, &scene);
+                assert_eq!(hit, None, "{arithmetic:?}, {center:?}");
+            }
+        }
+    }
 }

@@ -9,6 +9,7 @@ use rand::{Rng, RngExt};
 use rayon::prelude::*;
 use reference::spu::Spu;
 use reference::{Arithmetic, Ray, Tracer};
+use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use verify::seed::{count, generator, seed};
 
@@ -338,6 +339,21 @@ fn operations_are_the_real_results_cut_off() {
         let least = underflows.min(overflows).min(cancelled).min(nudged);
         assert!(least >= results / 500, "{what}: too little is at stake");
     }
+}
+
+/// Both worlds read these tables, so nothing else tells a wrong digit from a right one. The sums are those of the tables in RPCS3
+/// (`spu_frest_fraction_lut` and `spu_frsqest_fraction_lut` of `rpcs3/Emu/Cell/SPUThread.cpp`), each entry four bytes, the highest first.
+#[test]
+fn tables_are_those_that_emulators_record() {
+    let sum = |table: &[u32]| -> String {
+        let bytes: Vec<u8> = table.iter().flat_map(|entry| entry.to_be_bytes()).collect();
+        Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    };
+    let sums = [
+        "b53f869c48656714f36d13d62747604cfe7d727788de31c9771a56a453818f40",
+        "2c89bf5d511a536effc476553b2200e50bf194390e2d1b57dea25e6951a9ea54",
+    ];
+    assert_eq!([sum(&FREST), sum(&FRSQEST)], sums, "FREST, FRSQEST");
 }
 
 /// The pattern of a number from 1 up to below 2.
