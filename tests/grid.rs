@@ -2,7 +2,9 @@
 //! the level and the number of workers?
 
 use contract::{AMBIENT, Camera, DIFFUSE, Image, MISS, Scene, Size, Sphere};
-use optimized::plan::{Arithmetic, Cells, Culling, Loop, OnEvent, Plan, Resolution, Sharing, Voxelizer};
+use optimized::plan::{
+    Arithmetic, Cells, Culling, Loop, Margins, OnEvent, Packet, Plan, Resolution, Sharing, Voxelizer,
+};
 use optimized::{Event, Events, Form, Level, Tracer};
 use rayon::prelude::*;
 use reference::Arithmetic as Naive;
@@ -238,6 +240,169 @@ fn every_event_is_told() {
     assert_eq!(told, [0, 2, 3]);
 }
 
+/// Each event names its sphere, the axis and how many cells, and what is refused is the first; where a range ends is the arithmetic's own
+/// affair, and who has no margins has no range.
+#[test]
+fn events_say_what_was_found() {
+    let level = Level::best().expect("a level");
+    let corners =
+        Plan { voxelizer: Voxelizer::EightCorners, resolution: Resolution::Fixed(8), ..Plan::safe() };
+    for axis in 0..3 {
+        // Cells of 1 on that axis and 5 on the others, in which the balls span three, and one or two.
+        let at = |x: f32, y: f32, z: f32| {
+            let mut center = [y, y, y];
+            (center[axis], center[(axis + 1) % 3], center[(axis + 2) % 3]) = (x, y, z);
+            center
+        };
+        let wide = ball(at(3.5, 12.5, 15.1), 1.0);
+        let spheres = vec![
+            ball([0.0; 3], 0.001),
+            wide,
+            ball(at(8.0, 40.0, 40.0), 0.001),
+            ball(at(5.5, 2.5, 2.5), 1.25),
+        ];
+        let scene = Scene::new(spheres, [0; 3], contract::DEFAULT_LIGHT).expect("valid");
+        let render = |on_event| {
+            Tracer::new(Plan { on_event, ..corners }, level).render(&scene, &square([20.0, 20.0, 90.0]))
+        };
+        let expected = [1, 3].map(|sphere| Event::SpansCells { sphere, axis, cells: 3 });
+        for on_event in [OnEvent::FallBack, OnEvent::GoOn] {
+            assert_eq!(render(on_event).expect("goes on").events.first(), expected, "axis {axis}");
+        }
+        let refused = render(OnEvent::Refuse).expect_err("three cells");
+        assert_eq!(refused, optimized::RenderError::Refused(expected[0].clone()));
+    }
+
+    let camera = square([0.0, 0.0, 9.0]);
+    let events = |plan: Plan, radius: f32| -> Result<(Vec<Event>, bool), optimized::RenderError> {
+        let spheres = vec![ball([0.0; 3], 1.0), ball([1.0; 3], radius)];
+        let scene = Scene::new(spheres, [0; 3], contract::DEFAULT_LIGHT).expect("valid");
+        let rendering = Tracer::new(plan, level).render(&scene, &camera)?;
+        Ok((rendering.events.first().to_vec(), rendering.counts.cells > 0))
+    };
+    for form in [Form::Textbook, Form::Perpendicular] {
+        for (arithmetic, on_spu) in [(Arithmetic::Spu(form), true), (Arithmetic::Rounded(form), false)] {
+            let plan = Plan { arithmetic, ..Plan::safe() };
+            let strict = Plan { on_event: OnEvent::Refuse, ..plan };
+            let (found, refused) = (events(plan, 2f32.powi(-15)), events(strict, 2f32.powi(-15)));
+            if on_spu {
+                assert_eq!(found, Ok((vec![Event::OutOfRange], false)), "{plan}");
+                assert_eq!(refused, Err(optimized::RenderError::Refused(Event::OutOfRange)), "{strict}");
+            } else {
+                assert_eq!((found, refused), (Ok((vec![], true)), Ok((vec![], true))), "{plan}");
+            }
+        }
+    }
+    let found = events(Plan::paper(), 2f32.powi(-31)).expect("goes on");
+    assert!(!found.0.contains(&Event::OutOfRange) && found.1, "{found:?}");
+    assert_eq!(events(Plan::safe(), 2f32.powi(-31)), Ok((vec![Event::OutOfRange], false)));
+}
+
+/// A pixel whose direction is (0, 0, 0) is a miss by rule 2, from within a sphere too, and the pixels about it are none: whatever the plan and
+/// the level, wherever in its block it stands, and whether the others of the block share an axis or not. It has no axis, so its block is split.
+#[test]
+fn a_pixel_without_direction_is_a_miss_alone() {
+    let spans = [
+        ([1.0, 0.0, 0.0], [0.0, 0.25, -0.25]),
+        ([-1.0, 0.0, 0.0], [0.0, 0.25, -0.25]),
+        ([0.0, 0.125, -0.5], [0.25, 0.0, 0.0]),
+        ([0.0, 0.0, 2.0], [0.0, -1.0, 0.5]),
+    ];
+    let mut pictures = Vec::new();
+    for (du, dv) in spans {
+        for (width, height, pixels) in [
+            (7u16, 6u16, vec![[0u16, 0u16], [3, 0], [2, 1], [5, 4], [6, 5]]),
+            (4, 1, vec![[0, 0], [3, 0]]),
+            (1, 5, vec![[0, 4], [0, 0]]),
+        ] {
+            for [x, y] in pixels {
+                let [x, y] = [x, y].map(|at| f32::from(at) + 0.5);
+                let corner = [0, 1, 2].map(|i: usize| -(x * du[i]) - y * dv[i]);
+                let size = Size::new(width.into(), height.into()).expect("small");
+                let camera = Camera::new([0.25, -0.5, 0.125], corner, du, dv, size).expect("a camera");
+                pictures.push(camera);
+            }
+        }
+    }
+    let mut others = vec![ball([0.0; 3], 60.0)];
+    // Most lie about the picture's plane, which goes through the eye.
+    for i in 0..40u8 {
+        let [x, y] = [i % 8, i / 8].map(|at| f32::from(at) * 5.0 - 15.0);
+        others.push(ball([x, y, -y], 1.5));
+        others.push(ball([y, x / 4.0, -x], 1.25));
+    }
+    let around = vec![ball([0.0; 3], 5.0), ball([0.25, 0.0, 0.0], 4.0)];
+    let scenes = [around, others].map(|spheres| Scene::new(spheres, [7; 3], [0.3, 0.5, 0.4]).expect("valid"));
+    let mut plans = Vec::new();
+    for form in [Form::Textbook, Form::Perpendicular] {
+        let naive =
+            [[Naive::F32Textbook, Naive::SpuTextbook], [Naive::F32Perpendicular, Naive::SpuPerpendicular]];
+        let [rounded, on_spu] = naive[usize::from(form == Form::Perpendicular)];
+        for (arithmetic, naive) in [(Arithmetic::Rounded(form), rounded), (Arithmetic::Spu(form), on_spu)] {
+            plans.push((Plan { arithmetic, ..Plan::safe() }, naive));
+        }
+    }
+    plans.push((Plan { arithmetic: Arithmetic::Certified, ..Plan::safe() }, Naive::Exact));
+    for side in [1, 32] {
+        plans.push((Plan { packet: Packet::Tile { side }, ..Plan::fast() }, Naive::Exact));
+    }
+    // Such a picture is beyond the range of margins, and who has these has no grid; without them there is one.
+    plans.push((Plan { margins: Margins::None, ..Plan::safe() }, Naive::F32Perpendicular));
+    let levels = Level::available();
+    let (mut without, mut split) = (0, 0);
+    for (camera, scene) in pictures.iter().flat_map(|camera| scenes.iter().map(move |scene| (camera, scene)))
+    {
+        let blocks = split_blocks(camera);
+        for (plan, naive) in &plans {
+            let truth = reference::Tracer::new(*naive).threads(1).render(scene, camera).expect("small").image;
+            let misses: Vec<usize> = (0..truth.ids.len()).filter(|i| truth.ids[*i] == MISS).collect();
+            let directions: Vec<[f32; 3]> = (0..camera.size().height())
+                .flat_map(|y| (0..camera.size().width()).map(move |x| (x, y)))
+                .map(|(x, y)| reference::Ray::of_pixel(camera, x, y).dir)
+                .collect();
+            let none: Vec<usize> = (0..directions.len()).filter(|i| directions[*i] == [0.0; 3]).collect();
+            assert_eq!((&misses, none.len()), (&none, 1), "the reference; {camera:?}");
+            for level in &levels {
+                let given = Tracer::new(*plan, *level).render(scene, camera).expect("falls back");
+                for (i, direction) in directions.iter().enumerate() {
+                    let pixel = |image: &Image| (image.ids[i], image.t[i].to_bits(), image.rgba[i]);
+                    assert_eq!(
+                        pixel(&truth),
+                        pixel(&given.image),
+                        "{naive:?}, grid; pixel {i}, {direction:?}; {plan}, {level}, {camera:?}"
+                    );
+                }
+                assert_eq!(given.counts.split_blocks, blocks, "blocks split; {plan}, {level}, {camera:?}");
+                without += 1;
+                split += blocks;
+            }
+        }
+    }
+    eprintln!("{without} pictures with a pixel that has no direction, {split} blocks split");
+    assert!(without > 500, "too little was at stake");
+}
+
+/// Blocks of which no axis is the longest of all rays, in one sense.
+fn split_blocks(camera: &Camera) -> u64 {
+    let size = camera.size();
+    let is_split = |[x, y]: [u32; 2]| {
+        let lane = |lane: u32| {
+            let [column, row] = [(x + lane % 4).min(size.width() - 1), (y + lane / 4).min(size.height() - 1)];
+            reference::Ray::of_pixel(camera, column, row).dir
+        };
+        let together = |along: usize| {
+            (0..16).map(lane).all(|d| {
+                let speed = if along < 3 { d[along] } else { -d[along - 3] };
+                speed > 0.0 && d.iter().all(|x| x.abs() <= speed)
+            })
+        };
+        !(0..6).any(together)
+    };
+    let rows = (0..size.height()).step_by(4);
+    let blocks = rows.flat_map(|y| (0..size.width()).step_by(4).map(move |x| [x, y]));
+    blocks.filter(|block| is_split(*block)).count() as u64
+}
+
 /// A grid chosen for eight corners has cells wider than any sphere's box.
 #[test]
 fn cells_chosen_for_eight_corners_are_wide_enough() {
@@ -276,6 +441,28 @@ fn light_of_any_length_is_clamped_alike() {
     // 200, 100, 50 in full, in no light at all, and by ambient light alone: times 0.5625 and rounded.
     for rgba in [[200, 100, 50, 255], [0, 0, 0, 255], [113, 56, 28, 255]] {
         assert!(shades.contains(&rgba), "{rgba:?} is nowhere");
+    }
+}
+
+/// Rule 4 where both sums of the light overflow, one to each side: their sum is a NaN, which is no light at all, and neither full light nor none
+/// stands beside it.
+#[test]
+fn light_that_is_no_number_is_none() {
+    let scene = Scene::new(vec![ball([0.0; 3], 4.0)], [7; 3], [3e38, -3e38, 0.0]).expect("finite");
+    let case = Case { name: "light of no number".to_owned(), scene, camera: square([0.0, 0.0, 7.0]) };
+    for arithmetic in ARITHMETICS {
+        let naive = naive(&case, arithmetic);
+        // Normals of the corners are some 1.6 long on both axes; those of the upper right and the lower left have both of one sign.
+        for (corner, rgba) in [(0, [0; 3]), (63, [200, 100, 50]), (7, [0; 3]), (56, [0; 3])] {
+            assert_eq!(
+                (naive.ids[corner], naive.rgba[corner][..3].to_vec()),
+                (0, rgba.to_vec()),
+                "pixel {corner}"
+            );
+        }
+        for level in Level::available() {
+            judge(&case, &naive, Plan { arithmetic, ..Plan::safe() }, level, 1);
+        }
     }
 }
 

@@ -654,7 +654,10 @@ fn levels_have_names() {
     }
     let names: Vec<_> = levels.iter().map(|level| level.name()).collect();
     assert_eq!(names[0], "scalar");
-    assert!(names.windows(2).all(|two| two[0] != two[1]), "{names:?}");
+    // From plain to wide, since the last is the best.
+    let order = ["scalar", "sse2", "sse4.2", "avx2", "avx512", "neon", "simd128"];
+    let places: Vec<_> = names.iter().map(|name| order.iter().position(|known| known == name)).collect();
+    assert!(places.iter().all(Option::is_some) && places.windows(2).all(|two| two[0] < two[1]), "{names:?}");
     for name in ["", "avx", "sse3", "fallback", "avx512 "] {
         let error = Level::named(name).expect_err("no such level");
         assert_eq!(error, NoSuchLevel { name: name.into(), available: names.clone() });
@@ -697,9 +700,11 @@ fn the_variable_names_the_level() {
     let last = levels.last().expect("scalar at least");
     let (passed, said) = best_with(None);
     assert!(passed && said.contains(&format!("best level: {last}\n")), "{said}");
-    let (passed, said) = best_with(Some("sse9".as_ref()));
-    let listed = levels.iter().all(|level| said.contains(level.name()));
-    assert!(!passed && said.contains("`sse9`") && listed, "{said}");
+    for name in ["sse9", "scalar ", " scalar", ""] {
+        let (passed, said) = best_with(Some(name.as_ref()));
+        let listed = levels.iter().all(|level| said.contains(level.name()));
+        assert!(!passed && said.contains(&format!("`{name}`")) && listed, "{name:?}: {said}");
+    }
     #[cfg(unix)]
     {
         use std::os::unix::ffi::OsStrExt;

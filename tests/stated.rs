@@ -595,6 +595,23 @@ fn grids_for_tiles_are_as_stated() {
     assert!(with_large > 100 && all_alike > 10, "too little was at stake");
 }
 
+/// A sphere whose radius is the very power of two from which on spheres are large is large.
+#[test]
+fn the_least_large_radius_is_large() {
+    let at = |i: u16| [i % 17, i % 19, i / 323].map(f32::from);
+    let ball =
+        |i| Sphere { center: at(i), radius: if i % 126 == 5 { 0.015_625 } else { 0.01 }, color: [1; 3] };
+    let spheres: Vec<Sphere> = (0..5_040).map(ball).collect();
+    let large: Vec<u32> = (0..5_040).filter(|id| id % 126 == 5).collect();
+    for workers in [1, 2] {
+        let crew = Crew::new(workers).expect("threads");
+        let grid = Grid::by_center(Scalar, &Plan::fast(), &spheres, &mut Memory::default(), &crew);
+        let grid = grid.expect("in range");
+        assert_eq!(grid.large, large);
+        assert_eq!(grid.widen.to_bits(), widen(NEAREST as f32, 0.01).to_bits());
+    }
+}
+
 /// A grid for blocks is over the boxes of all spheres, or their centres, with four cells a sphere; for eight corners these are wider than any box.
 #[test]
 fn grids_for_blocks_are_as_stated() {
@@ -765,6 +782,26 @@ fn resolutions_are_refused_beyond_their_limits() {
     }
 }
 
+/// So it is where there will be no grid: of an empty scene, and of one that is out of range.
+#[test]
+fn resolutions_are_refused_whatever_the_scene() {
+    let size = Size::new(8, 8).expect("small");
+    let camera = Camera::new([0.0; 3], [0.5; 3], [0.1, 0.0, -0.1], [0.0, 0.1, -0.1], size).expect("valid");
+    let tiny = Sphere { center: [9.0; 3], radius: 1e-20, color: [1; 3] };
+    for spheres in [vec![], vec![tiny]] {
+        let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+        for plan in [Plan::safe(), Plan::fast(), Plan { on_event: OnEvent::Refuse, ..Plan::fast() }] {
+            for cells in [0, 241, 255] {
+                for resolution in [Resolution::Fixed(cells), Resolution::UpTo(cells)] {
+                    let plan = Plan { resolution, ..plan };
+                    let refused = Tracer::new(plan, Level::SCALAR).render(&scene, &camera).map(|_| ());
+                    assert_eq!(refused, Err(RenderError::Resolution { cells }), "{plan}, {scene:?}");
+                }
+            }
+        }
+    }
+}
+
 /// The cells of a slice reach as far as the packet's slopes and the pad of the farthest slice, also where neither the eye's place nor a
 /// widening adds to it.
 #[test]
@@ -783,6 +820,34 @@ fn slices_are_padded_for_the_farthest() {
                 for s in 0..16u8 {
                     let last = [0, 1].map(|side| slices.last[side][usize::from(s)]);
                     let wanted = (i32::from(s) + more).min(15);
+                    assert_eq!(last, [wanted; 2], "slice {s} on axis {axis}, {below}u below 1, {margins:?}");
+                }
+            }
+        }
+    }
+}
+
+/// The eye's place on the axis across counts for the pad as the farthest slice does, and its place along the rays does not stand for it: far
+/// from zero that is where sums are rounded.
+#[test]
+fn slices_are_padded_for_the_eye() {
+    let u = NEAREST as f32;
+    let plan = Plan { resolution: Resolution::Fixed(16), ..Plan::safe() };
+    for axis in 0..3 {
+        let from = |along: f32| std::array::from_fn(|i| if i == axis { along } else { 4096.0 });
+        let [lo, hi, center] = [0.0, 16.0, 8.0].map(|x| from(0.0).map(|at: f32| at + x));
+        let grid =
+            Grid::build(Scalar, &plan, &[Bounds { lo, hi, center, radius: 8.0 }], &mut Events::default());
+        let grid = grid.expect("nothing to refuse");
+        // The pad is 16u of 4112, and the last place of 4096 is 8192u: a slope's end that is less than that below the next cell comes there.
+        for (below, more) in [(4096.0, 1), (262_144.0, 0)] {
+            let slope = [[1.0 - below * u; LANES]; 2];
+            let frustum = Frustum { heading: Heading::new(axis, true), slopes: [slope; 2] };
+            for (margins, more) in [(Margins::Derived, more), (Margins::None, 0)] {
+                let slices = frustum.slices(Scalar, from(0.0), &grid, margins);
+                for s in 1..15u8 {
+                    let last = [0, 1].map(|side| slices.last[side][usize::from(s)]);
+                    let wanted = i32::from(s) + more;
                     assert_eq!(last, [wanted; 2], "slice {s} on axis {axis}, {below}u below 1, {margins:?}");
                 }
             }
@@ -931,6 +996,14 @@ fn as_many_slices_as_there_may_be_are_walked() {
     }
 }
 
+/// The paper's plan is the paper to the letter: each choice is the one that the plan's own texts name so.
+#[test]
+fn the_papers_plan_is_the_paper() {
+    let words = "eight corners into queues of 16, 4x4 blocks, flattened loop, four planes, no margins, textbook f32, 16 cells on an axis, \
+                 goes on in any event, a grid for each worker";
+    assert_eq!(Plan::paper().to_string(), words);
+}
+
 /// Plans that promise the naive picture, and words in which no two plans are alike.
 #[test]
 fn plans_promise_and_say_what_they_are() {
@@ -985,6 +1058,30 @@ fn a_crew_has_its_size() {
         assert_eq!(Crew::new(asked).expect("threads").size(), size);
     }
     assert_eq!(Crew::alone().size(), 1);
+}
+
+/// The variable that says that the test below is run with little memory.
+const LITTLE_MEMORY: &str = "CGT_LITTLE_MEMORY";
+
+/// Asks for more workers than there is memory for their stacks; run by the next test with so little.
+#[test]
+fn too_many_workers_are_asked_for() {
+    if std::env::var_os(LITTLE_MEMORY).is_some() {
+        let error = Crew::new(5_000).expect_err("more than there can be");
+        eprintln!("asked for 5000: {error}");
+    }
+}
+
+/// Workers that cannot be had are refused with the number that was asked for.
+#[test]
+#[cfg(target_os = "linux")]
+fn workers_that_cannot_be_had_are_refused() {
+    let script = "ulimit -v 1048576 && exec \"$0\" --exact too_many_workers_are_asked_for --nocapture";
+    let mut child = std::process::Command::new("sh");
+    child.args(["-c", script]).arg(std::env::current_exe().expect("this program")).env(LITTLE_MEMORY, "1");
+    let output = child.output().expect("a shell");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.contains("no threads for 5000 workers: "), "{said}");
 }
 
 /// A stripe is as high as a tile, but of several workers each may take eight, in whole patches of 32 scanlines.
@@ -1131,6 +1228,32 @@ fn every_lane_is_answered_once() {
     }
 }
 
+/// Twins around the eye leave f32 no lane, so each is asked of f64, and none twice or in a pass that is not its own, be it a tile's or that of one
+/// ray of a split block; as they are the same sphere, integers are not asked.
+#[test]
+fn every_marked_lane_is_asked_once() {
+    let twin = Sphere { center: [0.01, 0.02, -0.03], radius: 5.0, color: [1; 3] };
+    let scene = Scene::new(vec![twin; 2], [0; 3], DEFAULT_LIGHT).expect("valid");
+    let mut splits = 0;
+    for (width, height) in [(32, 32), (29, 31), (4, 4), (65, 33)] {
+        let size = Size::new(width, height).expect("small");
+        let camera = Camera::new([0.0; 3], [-20.5, -19.5, -20.0], [1.0, 0.0, 1.0], [0.0, 1.0, 0.0], size);
+        let camera = camera.expect("valid");
+        splits += split_blocks(&camera);
+        for packet in
+            [Packet::Block, Packet::Tile { side: 1 }, Packet::Tile { side: 2 }, Packet::Tile { side: 16 }]
+        {
+            let plan = Plan { packet, ..Plan::fast() };
+            let (counts, image) = costs(&scene, &camera, plan, 1);
+            let lanes = 16 * u64::from(width.div_ceil(4) * height.div_ceil(4));
+            let what = format!("{width}x{height}, {plan}: {counts:?}");
+            assert_eq!((counts.lanes, counts.asked_f64, counts.asked_integers), (lanes, lanes, 0), "{what}");
+            assert!(image.ids.iter().all(|id| *id == 0), "{what}");
+        }
+    }
+    assert!(splits > 20, "hardly a block is split: {splits}");
+}
+
 /// Beyond the picture's edge a block's lanes repeat its last column or row: here the next ray would go backwards, but for its sense along a line
 /// through the ball.
 #[test]
@@ -1191,6 +1314,40 @@ fn costs(scene: &Scene, camera: &Camera, plan: Plan, workers: usize) -> (Counts,
     (rendering.counts, rendering.image)
 }
 
+/// By blocks too, where they are split: each of sixteen rays meets whom its block shows, and no cell is walked.
+#[test]
+fn the_clairvoyant_walks_no_cell_of_a_split_block() {
+    let seed = seed();
+    let mut rng = generator(seed, 17);
+    let (mut splits, mut met) = (0, 0);
+    for case in 0..12 {
+        let scene = Scene::new(scattered(&mut rng, 90, [3.0; 3]), [7; 3], DEFAULT_LIGHT).expect("valid");
+        let size = Size::new(rng.random_range(20..45), rng.random_range(20..45)).expect("small");
+        let camera =
+            Camera::new([3.0; 3], [-1.1, 1.3, -1.0], [0.11, 0.013, 0.02], [0.017, -0.12, 0.01], size);
+        let camera = camera.expect("valid");
+        for arithmetic in [Arithmetic::Certified, Arithmetic::Rounded(Form::Perpendicular)] {
+            let plan = Plan { packet: Packet::Block, arithmetic, ..Plan::fast() };
+            let (_, image) = costs(&scene, &camera, plan, 1);
+            let known = Known::of(&image);
+            let mut wanted = 0;
+            for block in blocks(size) {
+                let rays = if is_split(&camera, block) { 16 } else { 1 };
+                wanted += rays * known.block(block).len() as u64;
+            }
+            let mut session = Tracer::new(plan, Level::best().expect("a level")).session().expect("memory");
+            let given = session.render_known(&scene, &camera, &known).expect("it is known");
+            let what = format!("case {case} of CGT_SEED={seed}, {plan}: {:?}", given.counts);
+            assert_eq!((&given.image.ids, &given.image.rgba), (&image.ids, &image.rgba), "{what}");
+            assert_eq!((given.counts.cells, given.counts.candidates), (0, wanted), "{what}");
+            met += wanted;
+        }
+        splits += split_blocks(&camera);
+    }
+    eprintln!("CGT_SEED={seed}: {splits} blocks are split, {met} spheres met");
+    assert!(splits > 40 && met > 2_000, "too little was at stake: {splits}, {met}");
+}
+
 /// Lanes, spheres without a grid, and blocks without a common major axis, against what they count.
 #[test]
 fn counts_of_blocks_are_what_they_say() {
@@ -1229,26 +1386,30 @@ fn counts_of_blocks_are_what_they_say() {
     assert!(splits > 40, "hardly a block was split");
 }
 
+/// The first pixels of a picture's blocks.
+fn blocks(size: Size) -> impl Iterator<Item = [u32; 2]> {
+    let rows = (0..size.height()).step_by(4);
+    rows.flat_map(move |y| (0..size.width()).step_by(4).map(move |x| [x, y]))
+}
+
 /// Blocks of which no axis is the longest of all rays, in one sense.
 fn split_blocks(camera: &Camera) -> u64 {
+    blocks(camera.size()).filter(|block| is_split(camera, *block)).count() as u64
+}
+
+fn is_split(camera: &Camera, [x, y]: [u32; 2]) -> bool {
     let size = camera.size();
-    let mut split = 0;
-    for y in (0..size.height()).step_by(4) {
-        for x in (0..size.width()).step_by(4) {
-            let mut together = [true; 6];
-            for lane in 0..16 {
-                let column = (x + lane % 4).min(size.width() - 1);
-                let row = (y + lane / 4).min(size.height() - 1);
-                let d = reference::Ray::of_pixel(camera, column, row).dir;
-                for (i, together) in together.iter_mut().enumerate() {
-                    let along = if i < 3 { d[i] } else { -d[i - 3] };
-                    *together &= along > 0.0 && d.iter().all(|x| x.abs() <= along);
-                }
-            }
-            split += u64::from(together == [false; 6]);
+    let mut together = [true; 6];
+    for lane in 0..16 {
+        let column = (x + lane % 4).min(size.width() - 1);
+        let row = (y + lane / 4).min(size.height() - 1);
+        let d = reference::Ray::of_pixel(camera, column, row).dir;
+        for (i, together) in together.iter_mut().enumerate() {
+            let along = if i < 3 { d[i] } else { -d[i - 3] };
+            *together &= along > 0.0 && d.iter().all(|x| x.abs() <= along);
         }
     }
-    split
+    together == [false; 6]
 }
 
 /// Each of the stages behind f32 is counted where a committed case needs it, by blocks and by tiles, and no worker's count is lost.

@@ -7,9 +7,11 @@ use optimized::double::{short_ends, short_error};
 use optimized::grid::{Grid, Memory};
 use optimized::host::{Scalar, Work};
 use optimized::machine::{LANES, Machine};
-use optimized::plan::{Arithmetic, Cells, Culling, Margins, Packet, Plan, Reason, Resolution, Voxelizer};
+use optimized::plan::{
+    Arithmetic, Cells, Culling, Margins, OnEvent, Packet, Plan, Reason, Resolution, Voxelizer,
+};
 use optimized::silhouette::Outline;
-use optimized::{Form, Known, Level, RenderError, Tracer, cull};
+use optimized::{Event, Form, Known, Level, RenderError, Tracer, cull};
 use rand::{Rng, RngExt};
 use rayon::prelude::*;
 use reference::{Arithmetic as Naive, Ray};
@@ -670,4 +672,322 @@ fn a_foreign_pool_may_ask_for_frames() {
     let alone = pixels(&frame());
     let together: Vec<_> = (0..200).into_par_iter().map(|_| pixels(&frame())).collect();
     assert!(together.iter().all(|picture| *picture == alone), "pictures differ");
+}
+
+fn looking(size: [u32; 2], corner: [f32; 3], du: [f32; 3], dv: [f32; 3]) -> Camera {
+    let size = Size::new(size[0], size[1]).expect("small");
+    Camera::new([0.0; 3], corner, du, dv, size).expect("a camera")
+}
+
+fn plain(spheres: Vec<Sphere>, background: [u8; 3]) -> Scene {
+    Scene::new(spheres, background, DEFAULT_LIGHT).expect("valid")
+}
+
+fn plain_ball(center: [f32; 3], radius: f32) -> Sphere {
+    Sphere { center, radius, color: [200, 150, 100] }
+}
+
+/// Frames of one area and other sides, and of one size before backgrounds that share a channel or are black, as an image is at first: each
+/// with a ball in its middle, and blocks that none ever wrote to.
+#[test]
+fn no_frame_has_the_sides_or_the_background_of_the_one_before() {
+    let frames = [
+        ([32, 8], [9, 0, 0]),
+        ([8, 32], [9, 0, 0]),
+        ([8, 32], [9, 5, 5]),
+        ([8, 32], [9, 5, 6]),
+        ([16, 16], [9, 5, 6]),
+        ([32, 8], [9; 3]),
+        ([32, 8], [0; 3]),
+        ([8, 32], [0; 3]),
+        ([8, 32], [0, 0, 1]),
+        ([8, 32], [0; 3]),
+    ];
+    let ball = plain_ball([0.5, -0.5, -20.0], 1.2);
+    for packet in [Packet::Block, Packet::Tile { side: 1 }, Packet::Tile { side: 8 }] {
+        for workers in [1, 2] {
+            let plan = Plan { packet, ..Plan::fast() };
+            let tracer = Tracer::new(plan, Level::best().expect("a level")).workers(workers);
+            let mut session = tracer.session().expect("memory");
+            for (i, (size, background)) in frames.into_iter().enumerate() {
+                let [w, h] = size.map(|n| n as f32 / 2.0);
+                let camera = looking(size, [-w, h, -20.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0]);
+                let scene = plain(vec![ball], background);
+                let truth = exact(&scene, &camera);
+                assert!(truth.ids.contains(&0) && truth.ids.contains(&MISS), "frame {i}");
+                let given = session.render(&scene, &camera).expect("nothing to refuse");
+                assert_equal(&truth, &given.image, &|| format!("frame {i}; {plan}, {workers} workers"));
+            }
+        }
+    }
+}
+
+/// Rays of one block go along two axes, so that it is written in two parts; what the first frame shows there alone is not in the second.
+#[test]
+fn what_a_block_of_two_axes_shows_is_cleared() {
+    // From 0.7 to 1.3 times as far to the right as ahead.
+    let camera = looking([4, 4], [0.6, -0.2, -1.0], [0.2, 0.0, 0.0], [0.0, 0.1, 0.0]);
+    let behind = plain(vec![plain_ball([0.0, 0.0, 20.0], 0.4)], [3; 3]);
+    for x in [0.7, 0.9, 1.1, 1.3] {
+        let scene = plain(vec![plain_ball([10.0 * x, 0.5, -10.0], 0.7)], [3; 3]);
+        let (shown, cleared) = (exact(&scene, &camera), exact(&behind, &camera));
+        assert!(shown.ids.contains(&0) && shown.ids.contains(&MISS) && !cleared.ids.contains(&0), "{x}");
+        for packet in [Packet::Block, Packet::Tile { side: 1 }, Packet::Tile { side: 8 }] {
+            let plan = Plan { packet, ..Plan::fast() };
+            let mut session = Tracer::new(plan, Level::best().expect("a level")).session().expect("memory");
+            for (scene, truth) in [(&scene, &shown), (&behind, &cleared)] {
+                let given = session.render(scene, &camera).expect("nothing to refuse");
+                assert_equal(truth, &given.image, &|| format!("{x}; {plan}"));
+            }
+        }
+    }
+}
+
+/// After a frame that is refused the last one is whole: its picture, and what was told of it. So it is after one whose known picture is another's,
+/// and the next good one is as if nothing had been.
+#[test]
+fn a_refused_frame_leaves_the_last_one_whole() {
+    let refusing = |plan| Plan { on_event: OnEvent::Refuse, ..plan };
+    let corners =
+        Plan { voxelizer: Voxelizer::EightCorners, resolution: Resolution::Fixed(8), ..Plan::safe() };
+    let view = |size| looking(size, [-0.8, 0.8, -2.0], [0.2, 0.0, 0.0], [0.0, -0.2, 0.0]);
+    // Cells of 0.5 by 0.375 by 0.5.
+    let small = [[-2.0, 0.0, -6.0], [2.0, 1.0, -8.0], [0.0, -2.0, -10.0]].map(|at| plain_ball(at, 0.01));
+    let with = |radius| [vec![plain_ball([0.4, -0.4, -8.0], radius)], small.to_vec()].concat();
+    let (good, spanning) = (plain(with(0.15), [1, 2, 3]), plain(with(1.0), [7; 3]));
+    let out_of_range = plain(with(1e-20), [1, 2, 3]);
+    let refused = [
+        (refusing(Plan::fast()), &out_of_range),
+        (refusing(Plan::safe()), &out_of_range),
+        (refusing(corners), &out_of_range),
+        (refusing(corners), &spanning),
+    ];
+    for (plan, bad) in refused {
+        let mut session = Tracer::new(plan, Level::best().expect("a level")).session().expect("memory");
+        assert_eq!(session.last().image.ids, [MISS], "before the first frame");
+        assert!(session.render(bad, &view([8, 8])).is_err(), "{plan}: not refused");
+        assert_eq!(session.last().image.ids, [MISS], "after a first frame that was refused");
+        let first = session.render(&good, &view([8, 8])).expect("nothing to refuse").clone();
+        assert!(first.image.ids.contains(&0) && first.events.count() == 0, "{plan}");
+        for size in [[8, 8], [8, 4]] {
+            assert!(session.render(bad, &view(size)).is_err(), "{plan}: not refused");
+            let known = Known::of(&first.image);
+            assert!(session.render_known(&good, &view([4, 8]), &known).is_err(), "{plan}: not refused");
+            let last = session.last();
+            assert_equal(&first.image, &last.image, &|| format!("after a refused frame; {plan}"));
+            assert_eq!(
+                (&last.events, last.counts, last.times),
+                (&first.events, first.counts, first.times),
+                "after a refused frame; {plan}"
+            );
+        }
+        let again = session.render(&good, &view([8, 8])).expect("nothing to refuse");
+        assert_equal(&first.image, &again.image, &|| format!("the next frame; {plan}"));
+        assert_eq!((&again.events, again.counts), (&first.events, first.counts), "{plan}");
+    }
+}
+
+/// Events are those of the frame, also of one whose picture is known.
+#[test]
+fn events_are_of_their_own_frame() {
+    let camera = looking([8, 4], [-0.8, 0.4, -2.0], [0.2, 0.0, 0.0], [0.0, -0.2, 0.0]);
+    let good = plain(vec![plain_ball([0.0, 0.0, -8.0], 2.0)], [0; 3]);
+    let bad = plain(vec![plain_ball([0.0, 0.0, -8.0], 2.0), plain_ball([9.0; 3], 1e-20)], [0; 3]);
+    let known = Known::of(&exact(&bad, &camera));
+    for plan in [Plan::fast(), Plan::safe()] {
+        let mut session = Tracer::new(plan, Level::best().expect("a level")).session().expect("memory");
+        for _ in 0..2 {
+            let given = session.render(&bad, &camera).expect("falls back");
+            assert_eq!(given.events.first(), [Event::OutOfRange], "{plan}");
+            let given = session.render_known(&bad, &camera, &known).expect("falls back");
+            assert_eq!(given.events.first(), [Event::OutOfRange], "known; {plan}");
+            let given = session.render_known(&good, &camera, &known).expect("nothing to tell");
+            assert_eq!(given.events.count(), 0, "known, in range; {plan}");
+        }
+    }
+}
+
+/// What is known of a picture is of its sides, not of as many pixels; and of several ids that a scene has not the first is told.
+#[test]
+fn what_is_known_is_refused_by_what_is_seen_first() {
+    let view = |size: [u32; 2]| {
+        let [w, h] = size.map(|n| n as f32 / 2.0);
+        looking(size, [-w, h, -20.0], [1.0, 0.0, 0.0], [0.0, -1.0, 0.0])
+    };
+    let at = |x: f32| plain_ball([x, 0.5, -20.0], 0.9);
+    let three = plain(vec![plain_ball([0.0, 0.0, 20.0], 1.0), at(-2.5), at(2.5)], [0; 3]);
+    let swapped = plain(vec![plain_ball([0.0, 0.0, 20.0], 1.0), at(2.5), at(-2.5)], [0; 3]);
+    let one = plain(vec![at(0.0)], [0; 3]);
+    let [wide, high] = [[8, 4], [4, 8]].map(|[w, h]| Size::new(w, h).expect("small"));
+    for plan in [Plan::fast(), Plan { packet: Packet::Block, ..Plan::fast() }] {
+        let mut session = Tracer::new(plan, Level::SCALAR).session().expect("memory");
+        for (scene, first) in [(&three, 1), (&swapped, 2)] {
+            let known = Known::of(&session.render(scene, &view([8, 4])).expect("a picture").image);
+            let refused = session.render_known(scene, &view([4, 8]), &known).map(|_| ());
+            assert_eq!(refused, Err(RenderError::Known { known: wide, asked: high }), "{plan}");
+            let refused = session.render_known(&one, &view([8, 4]), &known).map(|_| ());
+            assert_eq!(refused, Err(RenderError::KnownId { id: first, spheres: 1 }), "{plan}");
+        }
+    }
+}
+
+/// One sphere out of range is enough, wherever it stands, and how many there are is told.
+#[test]
+fn a_plan_is_chosen_for_all_spheres() {
+    let ball = |i: u16| Sphere { center: [f32::from(i), 0.0, 0.0], radius: 0.4, color: [9; 3] };
+    for at in 0..3 {
+        let mut spheres: Vec<Sphere> = (0..3).map(ball).collect();
+        spheres[at].radius = 1e-20;
+        let chosen = Plan::for_scene(&plain(spheres, [0; 3]));
+        assert_eq!((chosen.plan.packet, chosen.reasons), (Packet::Block, vec![Reason::OutOfRange]), "{at}");
+    }
+    for (spheres, reason) in [
+        (49_999, Reason::Few { spheres: 49_999 }),
+        (50_000, Reason::Many { spheres: 50_000 }),
+        (60_000, Reason::Many { spheres: 60_000 }),
+    ] {
+        let chosen = Plan::for_scene(&plain((0..spheres).map(ball).collect(), [0; 3]));
+        assert_eq!(chosen.reasons, [reason]);
+    }
+}
+
+/// A picture by blocks and by tiles, which must be the exact one; its hits.
+fn judged(scene: &Scene, camera: &Camera, packets: &[Packet], resolution: Resolution, what: &str) -> usize {
+    let truth = exact(scene, camera);
+    for packet in packets {
+        let plan = Plan { packet: *packet, resolution, ..Plan::fast() };
+        let given = Tracer::new(plan, Level::best().expect("a level")).render(scene, camera);
+        let given = given.expect("nothing to refuse").image;
+        assert_equal(&truth, &given, &|| format!("{what}; {plan}"));
+    }
+    truth.ids.iter().filter(|id| **id != MISS).count()
+}
+
+/// Of a wall, a ball whose surface is some 4 in a million of its radius away, f64 knows t to one part in 10¹⁰, of other balls to one in 10¹² or
+/// better. Each must have its own error: in blocks that show both, whichever comes last, and in tiles that show fewer than the first one did. Since
+/// f32 has a boundary of rounding within the wall's error once in some thousand times, it takes many pictures.
+#[test]
+fn each_sphere_has_its_own_error() {
+    let (seed, pictures) = (seed(), count("CGT_TILE_WALLS", 4_000));
+    let each = (0..pictures).into_par_iter().map(|i| {
+        let mut rng = generator(seed, i);
+        // So far that it is certain in f32 on which side of it the eye is, but hardly farther.
+        let toward: [f64; 3] = [1.0, rng.random_range(-0.3..0.3), rng.random_range(-0.3..-0.1)];
+        let length = toward.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let away = 2f64.powi(19) + rng.random_range(1.6..2.4);
+        #[allow(clippy::cast_possible_truncation, reason = "any f32 will do")]
+        let mut spheres = vec![plain_ball(toward.map(|x| (x / length * away) as f32), 524_288.0)];
+        // About one to a block, or so few that the wall is not set apart as large, and most of them in the first tile.
+        let (all, first) = [(120, 20), (30, 24)][usize::from(i % 4 == 3)];
+        for k in 0..all {
+            let low = if k < first { -1.0f32 } else { 1.0 };
+            let (x, y) = (rng.random_range(-1.0..low.max(-0.6)), rng.random_range(-low.max(-0.6)..1.0));
+            let distance = rng.random_range(0.2f32..0.3);
+            let scale = distance / (1.0 + x * x + y * y).sqrt();
+            spheres.push(plain_ball([x * scale, y * scale, -scale], distance / 20.0));
+        }
+        let camera = looking([40, 40], [-1.0, 1.0, -1.0], [0.05, 0.0, 0.0], [0.0, -0.05, 0.0]);
+        let packets = [Packet::Block, Packet::Tile { side: 2 }];
+        let scene = plain(spheres, [0; 3]);
+        judged(&scene, &camera, &packets, Resolution::Fixed(1), &format!("picture {i} of CGT_SEED={seed}"))
+            as u64
+    });
+    let hits: u64 = each.sum();
+    eprintln!("CGT_SEED={seed}: {hits} hits");
+    assert!(hits > 700 * pictures, "too little was at stake: {hits}");
+}
+
+/// Balls 50,000 radii away, on an axis and where the two lesser components of eye − centre make up for the greatest, of either sign: their whole disc,
+/// whose rim f32 cannot tell, and their middle, where f64 is not sure of t.
+#[test]
+fn balls_from_afar_have_their_error_on_all_axes() {
+    let (seed, mut hits, mut misses) = (seed(), 0, 0);
+    let mut rng = generator(seed, 0);
+    for turn in 0..3 {
+        for [near, sense] in [[0.0, 1.0], [0.0, -1.0], [0.4, 1.0], [0.4, -1.0], [0.45, 1.0], [0.45, -1.0]] {
+            let radius = rng.random_range(0.5f32..2.0);
+            let far = sense * 45_000.0 * radius * rng.random_range(0.95f32..1.0);
+            // |x| + |y| = |z|, or both are zero.
+            let [x, y] = [near * far, if near > 0.0 { (1.0 - near) * far } else { 0.0 }];
+            let turned = |v: [f32; 3]| -> [f32; 3] { std::array::from_fn(|i| v[(i + turn) % 3]) };
+            let ball = plain_ball(turned([x, y, far]), radius);
+            let scene = plain(vec![ball], [0; 3]);
+            let packets = [Packet::Block, Packet::Tile { side: 8 }];
+            for (pixels, radii) in [(128u16, 1.1f32), (192, 0.6)] {
+                let step = 2.0 * radii * radius / f32::from(pixels);
+                let corner = turned([x - radii * radius, y - radii * radius, far]);
+                let size = [u32::from(pixels); 2];
+                let camera = looking(size, corner, turned([step, 0.0, 0.0]), turned([0.0, step, 0.0]));
+                let seen = judged(
+                    &scene,
+                    &camera,
+                    &packets,
+                    Resolution::UpTo(240),
+                    &format!("{ball:?}, CGT_SEED={seed}"),
+                );
+                hits += seen;
+                misses += usize::from(pixels).pow(2) - seen;
+            }
+        }
+    }
+    eprintln!("CGT_SEED={seed}: {hits} hits, {misses} misses");
+    assert!(hits > 300_000 && misses > 20_000, "too little was at stake: {hits}, {misses}");
+}
+
+/// Two balls straight ahead whose surfaces are next to one another, and whose distances f32 rounds to different places: which is nearer it does not
+/// know, by as much as they are away.
+#[test]
+fn which_is_nearer_from_afar_is_not_known_to_f32() {
+    for (turn, sense) in (0..3).flat_map(|turn| [(turn, 1.0f32), (turn, -1.0)]) {
+        let turned = |v: [f32; 3]| -> [f32; 3] { std::array::from_fn(|i| v[(i + turn) % 3]) };
+        let ball = |at: f32, radius| plain_ball(turned([0.0, 0.0, sense * at]), radius);
+        let spheres = [ball(65_535.5, 10.0), ball(65_536.5, 11.0)];
+        for step in -4..=4i8 {
+            let eye = turned([0.0, 0.0, 0.0011 * f32::from(step)]);
+            let corner = turned([-1.0, -1.0, sense * 65_525.5]);
+            let (du, dv) = (turned([0.05, 0.0, 0.0]), turned([0.0, 0.05, 0.0]));
+            let camera =
+                Camera::new(eye, corner, du, dv, Size::new(40, 40).expect("small")).expect("a camera");
+            for spheres in [spheres.to_vec(), spheres.into_iter().rev().collect()] {
+                let scene = plain(spheres, [0; 3]);
+                let packets = [Packet::Block, Packet::Tile { side: 8 }];
+                judged(&scene, &camera, &packets, Resolution::UpTo(240), &format!("{sense}, {eye:?}"));
+                let nearer = |id: &u32| scene.spheres()[*id as usize].radius == 11.0;
+                assert!(exact(&scene, &camera).ids.iter().all(nearer), "the flatter one is in front");
+            }
+        }
+    }
+}
+
+/// Sixteen spheres are looked at together, of which the first and the last hold the eye, and of another the surface is so near that f32 cannot tell
+/// the side: that is each one's own affair. A third lies between the two roots of that one.
+#[test]
+fn each_sphere_has_its_own_side() {
+    let mut seen = [0u32; 3];
+    for steps in -6..=6i32 {
+        let radius = f32::from_bits(1f32.to_bits().wrapping_add_signed(steps));
+        let around = |radius| plain_ball([0.0, 0.0, -0.5], radius);
+        let near = |radius| plain_ball([0.0, 0.0, -1.0], radius);
+        let spheres = vec![around(8.0), near(radius), near(0.5), around(9.0)];
+        for spheres in [spheres.clone(), spheres.into_iter().rev().collect()] {
+            let scene = plain(spheres, [0; 3]);
+            for forward in [-1.0, 1.0] {
+                let camera = looking([12, 12], [-0.9, 0.9, forward], [0.15, 0.0, 0.0], [0.0, -0.15, 0.0]);
+                let packets = [Packet::Block, Packet::Tile { side: 1 }, Packet::Tile { side: 3 }];
+                judged(
+                    &scene,
+                    &camera,
+                    &packets,
+                    Resolution::Fixed(1),
+                    &format!("{steps} steps, {forward}, {:?}", scene.spheres()),
+                );
+                for id in exact(&scene, &camera).ids {
+                    let radius = scene.spheres()[id as usize].radius;
+                    seen[[0.7, 2.0].iter().filter(|limit| radius > **limit).count()] += 1;
+                }
+            }
+        }
+    }
+    eprintln!("{seen:?} pixels show the inner one, the near one and one around");
+    assert!(seen.iter().all(|n| *n > 500), "{seen:?}");
 }

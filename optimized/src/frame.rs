@@ -127,7 +127,7 @@ pub struct Frame<'a> {
     pub known: Option<&'a Known>,
 }
 
-/// Renders a frame into the memory of the one before.
+/// Renders a frame into the memory of the one before, which stays whole if there is an error.
 ///
 /// # Errors
 /// [`RenderError`] if the image cannot be had, the plan refuses what the scene does, or what is known is of another size.
@@ -145,9 +145,10 @@ pub fn render<M: Machine + Send + Sync>(
         known.check(scene, camera)?;
     }
     let start = Clock::start();
-    rendering.events = Events::default();
-    let seen = Seen::new(m, plan, scene, camera, memory, &mut rendering.events, crew)?;
-    rendering.times.build = start.elapsed();
+    // Nothing of the last frame is touched before it is certain that there will be another.
+    let mut events = Events::default();
+    let seen = Seen::new(m, plan, scene, camera, memory, &mut events, crew)?;
+    let build = start.elapsed();
     let (image, left) = (&mut rendering.image, &mut rendering.left);
     if image.size != camera.size() || left.background != scene.background() || left.columns.is_empty() {
         *image = Image::new(camera.size(), scene.background())?;
@@ -194,8 +195,9 @@ pub fn render<M: Machine + Send + Sync>(
         worker.counts
     });
     rendering.counts = counts.into_iter().fold(Counts::default(), |sum, counts| sum + counts);
+    rendering.events = events;
     memory.take(seen.grid);
-    rendering.times.trace = start.elapsed() - rendering.times.build;
+    rendering.times = Times { build, trace: start.elapsed() - build };
     Ok(())
 }
 

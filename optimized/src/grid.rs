@@ -473,6 +473,18 @@ fn survey<M: Machine>(m: M, spheres: &[Sphere]) -> ([[f32; 3]; 2], f32) {
     (whole, if large == spheres.len() { f32::INFINITY } else { from })
 }
 
+/// The most cells that a plan wants on an axis.
+///
+/// # Errors
+/// [`RenderError::Resolution`] for zero or more than [`MAX_CELLS`].
+pub(crate) fn limit(plan: &Plan) -> Result<u8, RenderError> {
+    let (Resolution::Fixed(limit) | Resolution::UpTo(limit)) = plan.resolution;
+    if limit == 0 || usize::from(limit) > MAX_CELLS {
+        return Err(RenderError::Resolution { cells: limit });
+    }
+    Ok(limit)
+}
+
 /// Cells on each axis. Chosen ones are cubes, about as many as wanted; for eight corners they are wider than any
 /// sphere's box.
 #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "a rule of thumb")]
@@ -482,10 +494,7 @@ fn resolution(
     wanted: f64,
     widest: f64,
 ) -> Result<[i32; 3], RenderError> {
-    let (Resolution::Fixed(limit) | Resolution::UpTo(limit)) = plan.resolution;
-    if limit == 0 || usize::from(limit) > MAX_CELLS {
-        return Err(RenderError::Resolution { cells: limit });
-    }
+    let limit = limit(plan)?;
     if let Resolution::Fixed(n) = plan.resolution {
         return Ok([i32::from(n); 3]);
     }

@@ -179,7 +179,8 @@ impl Session {
         self.frame(scene, camera, Some(known))
     }
 
-    /// The last frame again; before there was one, a picture of one pixel.
+    /// The last frame again, with all that was told of it; one that was refused since left it as it was. Before there was one, a picture of
+    /// one pixel.
     #[must_use]
     pub fn last(&self) -> &Rendering {
         &self.rendering

@@ -9,7 +9,7 @@ use crate::cull::{self, Planes};
 use crate::double;
 use crate::event::{Event, Events, RenderError};
 use crate::frustum::{Bundle, Heading, Slices, beyond};
-use crate::grid::{Bounds, Grid, Memory};
+use crate::grid::{Bounds, Grid, Memory, limit};
 use crate::machine::{Chore, LANES, Machine, Site, Stage, three};
 use crate::margin;
 use crate::plan::{Arithmetic, Cells, Culling, Margins, OnEvent, Packet, Plan, Voxelizer};
@@ -96,7 +96,7 @@ impl Seen {
     /// Prepares spheres and builds the grid; for tiles, all workers do.
     ///
     /// # Errors
-    /// [`RenderError`] if the plan refuses what the scene does.
+    /// [`RenderError`] if the plan cannot be followed, or refuses what the scene does.
     pub fn new<M: Machine + Send + Sync>(
         m: M,
         plan: Plan,
@@ -117,6 +117,8 @@ impl Seen {
                 true
             }
         };
+        // Asked of every scene, lest it depend on one whether it has a grid and its plan is refused.
+        limit(&plan)?;
         let scene = scene.spheres();
         let in_range = plan.margins == Margins::None || margin::in_range(plan.arithmetic, scene, camera);
         if !in_range {
