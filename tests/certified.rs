@@ -207,6 +207,55 @@ fn ties_of_t_go_to_even() {
     }
 }
 
+/// Beside a grazing ray of the least numbers there are f64 rounds the cross product by a ninth, since it holds it in 53 bits: eye − centre is
+/// (2⁵³ + 1, 2⁵³ + 19, 0) times 2⁻¹⁴⁹, the ball's radius 13 of these, and D = 2 · 13² − 18² = 14. Rounded it is 2 · 13² − 20², whose bound is a product
+/// that the range of f64 does not hold, but for roots taken first.
+#[test]
+fn the_least_numbers_leave_f64_its_bound() {
+    let (least, far) = (f32::from_bits(1), 2f32.powi(-96));
+    let eye = [far, far, 0.0];
+    let dir = [-least, -least, 0.0];
+    let ball = |times: [f32; 2], radius| Sphere {
+        center: [-times[0] * least, -times[1] * least, 0.0],
+        radius: radius * least,
+        color: [9; 3],
+    };
+    // The last is passed by: 2 · 13² − 19² is below zero.
+    for (sphere, hit) in
+        [(ball([1.0, 19.0], 13.0), true), (ball([19.0, 1.0], 13.0), true), (ball([1.0, 20.0], 13.0), false)]
+    {
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("valid");
+        let expected = truth(&Ray { eye, dir }, &scene);
+        assert_eq!(expected.is_some(), hit, "the reference; {sphere:?}");
+        let asked = double::ask::<f64>(eye, dir, &sphere);
+        assert!(
+            asked == Answer::Undecided || matches!(asked, Answer::Hit(_)) == hit,
+            "f64 says {asked:?} of {sphere:?}, which is {}",
+            if hit { "hit" } else { "missed" }
+        );
+        let seen = Seen::without_grid(Scalar, Plan::fast(), scene.spheres(), eye);
+        for level in Level::available() {
+            let (t, id, _) = level.run(Trace(&seen, &scene, dir.map(|d| [d; LANES])));
+            let given = (id[0] != NONE).then(|| (id[0].unsigned_abs(), t[0].to_bits()));
+            assert_eq!(expected, given, "exact, certified; {level}, {sphere:?}");
+        }
+    }
+}
+
+/// Along (0, 0, 0) nothing is hit, from within a sphere and from its surface too; integers say so, and f64 says nothing else.
+#[test]
+fn no_direction_hits_nothing() {
+    for center in [[0.0; 3], [3.0, 4.0, 0.0], [30.0, 40.0, 0.0]] {
+        let sphere = Sphere { center, radius: 5.0, color: [9; 3] };
+        for dir in [[0.0; 3], [-0.0; 3]] {
+            let found = exact::nearest([0.0; 3], dir, std::iter::once((0, &sphere)));
+            assert_eq!(found, None, "{center:?}");
+            let asked = double::ask::<f64>([0.0; 3], dir, &sphere);
+            assert!(!matches!(asked, Answer::Hit(_)), "f64 says {asked:?} of {center:?}");
+        }
+    }
+}
+
 /// The number with these limbs, the lowest first, in both libraries. Pieces do not overlap, so no sum carries.
 fn both(limbs: &[u64], negative: bool) -> (Wide, BigInt) {
     let (mut wide, mut big) = (Wide::ZERO, BigInt::ZERO);

@@ -7,8 +7,9 @@
 //! # Derivation
 //!
 //! Every operation is fl(x ∘ y) = (x ∘ y)(1 + δ), |δ| <= v, so that k of them are off by at most γ_k = (1 + v)ᵏ − 1 of the true, or
-//! by (1 − v)⁻ᵏ − 1 of the computed result. Products of two inputs are exact, and no step leaves the range of f64 (products reach from 2⁻⁵⁹⁶ to
-//! 2⁵¹⁸). What follows holds for every v <= 2⁻⁸, with M = [`Float::MORE`] >= 1 + 40 v. Let f = eye − c and d be exact, F = |f|, n = |d|,
+//! by (1 − v)⁻ᵏ − 1 of the computed result. Products of two inputs are exact, and no step leaves the range of f64: products reach from 2⁻⁵⁹⁶ to
+//! 2⁵¹⁸. (That of G and W below would leave it; so their roots are multiplied.) What follows holds for every v <= 2⁻⁸, with
+//! M = [`Float::MORE`] >= 1 + 40 v. Let f = eye − c and d be exact, F = |f|, n = |d|,
 //! a = n², b = f·d, q = F² − r², w = f × d, D = a r² − |w|² (which is b² − a q, without its cancellation); what is computed has a hat,
 //! and by name A = fl(a r²), W = fl(|ŵ|²), G = fl(â F̂²) ("far").
 //!
@@ -18,8 +19,8 @@
 //! 3. ||ŵ|² − |w|²| <= 2p |ŵ| + p², in terms of what was computed.
 //! 4. A and W have three roundings each, the difference one more: |D̂ − D| <= ((1 − v)⁻³ − 1 + v)(A + W) + 2p |ŵ| + p².
 //! 5. G has eight roundings (two in a, five in F²), W three: F n <= √G (1 − v)⁻⁴, |ŵ| <= √W (1 − v)^(−3/2).
-//! 6. `slack` is computed with 5.5 roundings on its first term (the root halves one), five on the second, two on the third. So it is no less
-//!    than 4. if 6.96 (1 − v)⁻¹¹ <= 7 M, ((1 − v)⁻³ − 1 + v)(1 − v)⁻⁵ <= 5 M v, and 12.12 (1 − v)⁻¹⁰ <= 14.
+//! 6. `slack` is computed with seven roundings on its first term, five on the second, two on the third. So it is no less than 4. if
+//!    6.96 (1 − v)⁻¹⁴ <= 7 M (of 5. and these 12.5 would do), ((1 − v)⁻³ − 1 + v)(1 − v)⁻⁵ <= 5 M v, and 12.12 (1 − v)⁻¹⁰ <= 14.
 //! 7. F² has five roundings, q one more: |q̂ − q| <= ((1 − v)⁻⁵ − 1) F̂² + v (F̂² + r²); `q_slack` is no less if
 //!    ((1 − v)⁻⁵ − 1 + v) <= 6 M v (1 − v)³ and 1 <= M (1 − v)².
 //! 8. b has four roundings on Σ |f_i d_i| <= F n: |b̂ − b| <= γ_4 F n; `b_slack` is no less if γ_4 (1 − v)⁻⁴ <= 4 M v (1 − v)².
@@ -137,7 +138,7 @@ pub fn root<F: Float>(eye: [f32; 3], dir: [f32; 3], center: [f32; 3], radius: f3
     let (ww, far) = (dot(w, w), a * ff);
     let discriminant = a * rr - ww;
     let slack = F::at_least(F::UNIT * F::MORE)
-        * (F::of(7.0) * (far * ww).sqrt() + F::of(5.0) * (a * rr + ww))
+        * (F::of(7.0) * (far.sqrt() * ww.sqrt()) + F::of(5.0) * (a * rr + ww))
         + F::at_least(14.0 * F::UNIT * F::UNIT) * far;
     let (q, b_slack) = (ff - rr, F::at_least(4.0 * F::MORE * F::UNIT) * far.sqrt());
     let q_slack = F::at_least(F::MORE * F::UNIT) * (F::of(6.0) * ff + rr);

@@ -179,7 +179,7 @@ fn lengths_in_order<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<
     )
 }
 
-/// Step 6: the first terms, with h = (1 − v)^(11/2).
+/// Step 6: the first terms, with h = (1 − v)⁷, which is more than step 5 needs.
 fn first_term<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     let [v, h, long, short, computed, more] = r.each(["v", "h", "F n", "|ŵ|", "√(G W)", "M"]);
     let (zero, seven) = (r.number(0.0), r.ratio(696.0, 100.0));
@@ -203,8 +203,8 @@ fn slack_a<M: Machine>(r: &mut Reals<'_, M, impl Ask<M>>) -> Statement<M::B> {
     follows(
         vec![("v is in range", r.in_unit(v, 256.0))],
         vec![],
-        vec![("6.96 is at most 7 M (1 − v)¹¹", {
-            r.ratio(696.0, 100.0).at_most(7.0 * more(v) * (1.0 - v).power(11))
+        vec![("6.96 is at most 7 M (1 − v)¹⁴", {
+            r.ratio(696.0, 100.0).at_most(7.0 * more(v) * (1.0 - v).power(14))
         })],
     )
 }
@@ -1048,7 +1048,7 @@ pub fn lemmas() -> Vec<Lemma> {
             &[("length", ONE), ("root of the computed", ONE), ("c", HALF)],
             step!(lengths_in_order),
         ),
-        lemma("rounding.root.6.a", "6.96 (1 − v)⁻¹¹ is at most 7 M", v, step!(slack_a)),
+        lemma("rounding.root.6.a", "6.96 (1 − v)⁻¹⁴ is at most 7 M", v, step!(slack_a)),
         lemma("rounding.root.6.b", "((1 − v)⁻³ − 1 + v)(1 − v)⁻⁵ is at most 5 M v", v, step!(slack_b)),
         lemma("rounding.root.6.c", "12.12 (1 − v)⁻¹⁰ is at most 14", v, step!(slack_c)),
         lemma(
