@@ -35,7 +35,7 @@ fn one_wrong_frame_is_enough() {
     spheres.iter_mut().for_each(|sphere| sphere.center[2] -= 100.0);
     let behind = Scene::new(spheres, scene.background(), scene.light()).expect("valid");
     let verdict = |frames: &[&Scene]| {
-        let frames = frames.iter().map(|scene| Scene::clone(scene)).collect();
+        let frames = frames.iter().copied().cloned().collect();
         let case = Case { frames: Animation::new(frames).expect("frames"), ..case.clone() };
         worst(&case.judge().expect("it is judged"))
     };

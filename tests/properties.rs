@@ -92,7 +92,7 @@ fn what_breaks_in_a_later_frame_is_a_failure() {
     spheres.iter_mut().for_each(|sphere| sphere.center[2] -= 100.0);
     let behind = Scene::new(spheres, scene.background(), scene.light()).expect("valid");
     let of = |frames: &[&Scene]| {
-        let frames = frames.iter().map(|scene| Scene::clone(scene)).collect();
+        let frames = frames.iter().copied().cloned().collect();
         judged(&Case { frames: Animation::new(frames).expect("frames"), ..case.clone() })
     };
     assert!(of(&[&behind, &behind]).is_ok_and(|stakes| stakes.count("frames") == 2));
