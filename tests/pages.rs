@@ -12,7 +12,7 @@ use verify::chart::{Asked, Chart, Distance, measure};
 use verify::methods::charted;
 use verify::report::{
     CameraRecord, Environment, Judge, Part, Report, SCHEMA_VERSION, ScenePictures, SceneReport,
-    SubjectReport, html,
+    SubjectReport, TRUTH, html,
 };
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
@@ -139,7 +139,7 @@ fn page() -> Made<String> {
     let mut pictures = Vec::new();
     for _ in &scenes {
         let mut set = ScenePictures::new(&truth)?;
-        set.add(("Truth", &truth), &wrong, Some([58, 1]))?;
+        set.add((TRUTH, &truth), &wrong, Some([58, 1]))?;
         pictures.push(set);
     }
     let report = Report {

@@ -9,7 +9,8 @@ use std::error::Error;
 use verify::judge::outside::{Adjudicated, Hearing};
 use verify::report::{
     Absent, Claim, Counter, Environment, Evidence, Judge, Part, Report, ReportError, SCHEMA_VERSION,
-    ScenePictures, SceneReport, SubjectReport, TEXT_WIDTH, html, json, overall, sanitized, text, word, write,
+    ScenePictures, SceneReport, SubjectReport, TEXT_WIDTH, TRUTH, html, json, overall, sanitized, text, word,
+    write,
 };
 use verify::verdict::{Comparison, UlpSummary, Verdict};
 
@@ -151,8 +152,8 @@ fn pictures(report: &Report) -> Result<Vec<ScenePictures>, Box<dyn Error>> {
         for subject in &scene.subjects {
             match subject.verdict {
                 Verdict::NotJudged => set.skip(),
-                Verdict::Wrong => set.add(("Truth", &truth), &wrong, Some([58, 1]))?,
-                _ => set.add(("Truth", &truth), &truth, None)?,
+                Verdict::Wrong => set.add((TRUTH, &truth), &wrong, Some([58, 1]))?,
+                _ => set.add((TRUTH, &truth), &truth, None)?,
             }
         }
         sets.push(set);

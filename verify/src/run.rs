@@ -9,7 +9,7 @@ use crate::judge::compare::fault_at;
 use crate::judge::judge;
 use crate::judge::outside::{Witness, hear};
 use crate::picture::PictureError;
-use crate::report::{Counter, Judge, ScenePictures, SceneReport, SubjectReport};
+use crate::report::{Counter, Judge, ScenePictures, SceneReport, SubjectReport, TRUTH};
 use crate::subject::{Naive, Promise, Rendered, Rounding, Subject, SubjectError};
 use crate::verdict::{Comparison, Verdict};
 use contract::{Camera, Image, MISS, Scene};
@@ -202,7 +202,7 @@ fn held_against<'a>(
 ) -> (&'static str, &'a Image) {
     let index = comparison.and_then(|c| c.first_wrong).map(|place| index(truth, place));
     let broken = twin.zip(index).filter(|(twin, index)| fault_at(twin, subject, *index).is_some());
-    broken.map_or(("Truth", truth), |(twin, _)| ("Promised", twin))
+    broken.map_or((TRUTH, truth), |(twin, _)| ("Promised", twin))
 }
 
 fn index(image: &Image, [x, y]: [u32; 2]) -> usize {

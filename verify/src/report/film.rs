@@ -1,6 +1,7 @@
 //! Frames of one animation as one thing on the page: consecutive scenes of one name come in, a film with its frames, each with the truth and
 //! what differs from it, goes out. The page's own script turns it; without it the first frame is seen.
 
+use super::pictures::TRUTH;
 use super::view::{Badge, SceneView};
 use super::words::{count, word};
 use crate::verdict::{Comparison, Verdict};
@@ -98,9 +99,10 @@ fn frame<'a>(scene: &'a SceneView<'a>) -> Frame<'a> {
     for subject in &scene.subjects {
         let name = &subject.data.name;
         if let Some(shown) = &subject.differing {
-            let [_, (_, own), (_, difference)] = &shown.panels;
+            let [(against, _), (_, own), (_, difference)] = &shown.panels;
             panels.push((name.clone(), own.as_str()));
-            panels.push((format!("Difference of {name}"), difference.as_str()));
+            let from = if *against == TRUTH { "the truth" } else { "its promise" };
+            panels.push((format!("Difference of {name} from {from}"), difference.as_str()));
         }
         told.push(match &subject.data.comparison {
             Some(c) => format!(

@@ -29,6 +29,6 @@ pub use html::{Part, html};
 pub use json::json;
 pub use live::{Live, LiveError, MAX_MODULE, MAX_SPHERES, Module};
 pub use names::sanitized;
-pub use pictures::ScenePictures;
+pub use pictures::{ScenePictures, TRUTH};
 pub use text::{TEXT_WIDTH, text};
 pub use words::word;

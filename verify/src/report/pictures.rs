@@ -6,6 +6,8 @@ use super::Live;
 use crate::picture::{PictureError, canvas, join, panels, png, zoom};
 use contract::Image;
 
+/// What the picture is called that all are held against but those that promise another.
+pub const TRUTH: &str = "Truth";
 /// Pixels on a side of the magnified part.
 pub(super) const ZOOM_SIDE: u32 = 21;
 /// How many times it is magnified.
