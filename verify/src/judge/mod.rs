@@ -169,7 +169,9 @@ fn explains(
             Some(own) if !own.may_hit.is_some_and(|[lo, hi]| (lo..=hi).contains(&f64::from(t))) => {
                 return Some(false);
             }
-            own => stated = own.is_some(),
+            own => {
+                stated = own.is_some();
+            }
         }
     }
     if fault == Fault::T {
