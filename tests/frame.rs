@@ -3,7 +3,7 @@
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use optimized::Level;
 use reference::{Arithmetic, Ray, Tracer};
-use verify::report::SceneReport;
+use verify::report::{Environment, Report, SCHEMA_VERSION, ScenePictures, SceneReport, html};
 use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
@@ -53,6 +53,15 @@ fn made() -> (Scene, Camera) {
 }
 
 fn told(scene: &Scene, camera: &Camera, replay: &str, subjects: &[&dyn Subject]) -> SceneReport {
+    shown(scene, camera, replay, subjects).0
+}
+
+fn shown(
+    scene: &Scene,
+    camera: &Camera,
+    replay: &str,
+    subjects: &[&dyn Subject],
+) -> (SceneReport, ScenePictures) {
     let frame = Frame {
         name: "a",
         description: "b",
@@ -63,7 +72,31 @@ fn told(scene: &Scene, camera: &Camera, replay: &str, subjects: &[&dyn Subject])
         warnings: &[],
         replay,
     };
-    run(&frame, subjects, &[], 1, &|_, _| Box::new(|| ())).expect("it is judged").0
+    run(&frame, subjects, &[], 1, &|_, _| Box::new(|| ())).expect("it is judged")
+}
+
+fn page(scenes: Vec<SceneReport>, pictures: ScenePictures) -> String {
+    let report = Report {
+        schema_version: SCHEMA_VERSION,
+        title: "a".into(),
+        verdict: Verdict::Wrong,
+        environment: Environment {
+            program: "cgt".into(),
+            target: "any".into(),
+            cpu: None,
+            simd: "scalar".into(),
+            rustc: "rustc".into(),
+            threads: 1,
+            date: "2026-01-01".into(),
+            command_line: "cgt verify".into(),
+            seed: None,
+        },
+        scenes,
+        claims: Vec::new(),
+        broken: Vec::new(),
+        absent: Vec::new(),
+    };
+    html(&report, &[pictures], &[]).expect("a page")
 }
 
 /// The first pixel that hits from row 10 and column 4 on, so that neither is 0 and none is the other.
@@ -138,7 +171,7 @@ fn a_broken_twin_is_shown_beside_its_promise() {
     // The exact picture differs from the naive one there first, and nowhere from the truth.
     let promise = Promise::EqualToNaive(Rounding::TextbookF32);
     let exact = Spoilt { name: "better", promise, spoil: |_| () };
-    let report = told(&scene, &camera, "", &[&exact]);
+    let (report, pictures) = shown(&scene, &camera, "", &[&exact]);
     let subject = &report.subjects[0];
     let comparison = subject.comparison.as_ref().expect("it is compared");
     assert_eq!((subject.verdict, comparison.wrong_ids + comparison.wrong_t), (Verdict::Wrong, 0));
@@ -150,11 +183,16 @@ fn a_broken_twin_is_shown_beside_its_promise() {
     for (head, t) in [("truth ", truth.t[at]), ("promised ", naive.t[at]), ("subject ", truth.t[at])] {
         assert!(line(head).contains(&bits(t)), "{head}: {account}");
     }
+    // Beside the truth there would be nothing to see.
+    let html = page(vec![report.clone()], pictures);
+    assert!(html.contains("<p>Promised</p>") && !html.contains("has the bits of the exact picture"));
     // Who is as promised has no such line, though it differs from the truth.
     let own = Naive(Rounding::TextbookF32);
-    let report = told(&scene, &camera, "", &[&own]);
+    let (report, pictures) = shown(&scene, &camera, "", &[&own]);
     let account = report.subjects[0].first_wrong.as_deref().expect("it rounds");
     assert!(!account.contains("promised"), "{account}");
+    let html = page(vec![report.clone()], pictures);
+    assert!(html.contains("<p>Truth</p>") && !html.contains("<p>Promised</p>"));
 }
 
 /// Whoever is called as the naive tracer is, or comes before it, a promise to be equal to it is held against the naive tracer itself.

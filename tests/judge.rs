@@ -446,6 +446,19 @@ fn what_the_form_states_nothing_of_is_undecidable() {
     let judgement = judge(&twins, &camera, &truth, &second, Promise::Rounded(Rounding::TextbookF32), None);
     let unstated = judgement.comparison.as_ref().map(|c| (c.undecidable, c.unexplained));
     assert_eq!((judgement.verdict, unstated), (Verdict::Undecidable, Some((hits, 0))), "{judgement:?}");
+    // Nor is another t of the right one.
+    let mut farther = truth.clone();
+    for (y, x) in (0..8).flat_map(|y| (0..8).map(move |x| (y, x))) {
+        let i = (8 * y + x) as usize;
+        if truth.ids[i] != MISS {
+            farther.t[i] = truth.t[i].next_up();
+            let answer = Hit { id: 0, t: farther.t[i] };
+            farther.rgba[i] = shade(&scene, &Ray::of_pixel(&camera, x, y), answer);
+        }
+    }
+    let judgement = judge(&scene, &camera, &truth, &farther, Promise::Rounded(Rounding::TextbookF32), None);
+    let unstated = judgement.comparison.as_ref().map(|c| (c.undecidable, c.unexplained, c.wrong_t));
+    assert_eq!((judgement.verdict, unstated), (Verdict::Undecidable, Some((hits, 0, hits))), "{judgement:?}");
 }
 
 /// One sphere of which nothing is stated excuses nobody who missed another, or saw what stands behind it; in whatever order they are.

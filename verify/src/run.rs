@@ -91,20 +91,21 @@ pub fn run(
                 let seconds = took.map_or(seconds, |took| took.as_secs_f64());
                 let twin = naive.for_promise(subject.promise(), frame, threads, progress);
                 let verdict = judge(scene, camera, &truth, &image, subject.promise(), twin);
-                let against = held_against(&truth, twin, &image, verdict.comparison.as_ref());
+                let place = verdict.comparison.as_ref().and_then(|comparison| comparison.first_wrong);
+                let promised = broken(twin, &image, place);
                 report.seconds = Some(seconds);
                 report.rays_per_second = Some(camera.size().pixels() as f64 / seconds);
                 report.first_wrong = verdict
                     .comparison
                     .as_ref()
-                    .and_then(|c| account(frame, &subject.option(), &truth, against, &image, c));
+                    .and_then(|c| account(frame, &subject.option(), &truth, promised, &image, c));
                 (report.verdict, report.because) = (verdict.verdict, verdict.because);
                 report.comparison = verdict.comparison;
                 for note in notes {
                     report.because += &format!(" {note}");
                 }
                 match &report.comparison {
-                    Some(comparison) => pictures.add(against, &image, comparison.first_wrong)?,
+                    Some(_) => pictures.add(held_against(&truth, promised, &image, place), &image, place)?,
                     None => pictures.skip(),
                 }
                 naive.keep(*subject, threads, image);
@@ -193,16 +194,21 @@ impl NaivePictures {
     }
 }
 
-/// What a picture is shown beside: the truth, or where it breaks a promise to be the naive one, that.
+/// The picture that was promised, where it and the subject's differ at a place.
+fn broken<'a>(twin: Option<&'a Image>, subject: &Image, place: Option<[u32; 2]>) -> Option<&'a Image> {
+    let index = place.map(|place| index(subject, place))?;
+    twin.filter(|twin| fault_at(twin, subject, index).is_some())
+}
+
+/// What a picture is shown beside: the truth, or where that shows no difference at a place, what was promised.
 fn held_against<'a>(
     truth: &'a Image,
-    twin: Option<&'a Image>,
+    promised: Option<&'a Image>,
     subject: &Image,
-    comparison: Option<&Comparison>,
+    place: Option<[u32; 2]>,
 ) -> (&'static str, &'a Image) {
-    let index = comparison.and_then(|c| c.first_wrong).map(|place| index(truth, place));
-    let broken = twin.zip(index).filter(|(twin, index)| fault_at(twin, subject, *index).is_some());
-    broken.map_or((TRUTH, truth), |(twin, _)| ("Promised", twin))
+    let same = place.is_some_and(|place| fault_at(truth, subject, index(truth, place)).is_none());
+    promised.filter(|_| same).map_or((TRUTH, truth), |twin| ("Promised", twin))
 }
 
 fn index(image: &Image, [x, y]: [u32; 2]) -> usize {
@@ -215,7 +221,7 @@ fn account(
     frame: &Frame<'_>,
     option: &str,
     truth: &Image,
-    (against, promised): (&str, &Image),
+    promised: Option<&Image>,
     subject: &Image,
     comparison: &Comparison,
 ) -> Option<String> {
@@ -234,8 +240,8 @@ fn account(
         vector(ray.dir),
         answer(truth),
     );
-    if !std::ptr::eq(promised, truth) {
-        text += &format!("\n{:<10} {}", against.to_lowercase(), answer(promised));
+    if let Some(promised) = promised {
+        text += &format!("\npromised   {}", answer(promised));
     }
     text += &format!("\nsubject    {}", answer(subject));
     if !frame.replay.is_empty() {
