@@ -6,6 +6,7 @@
 mod own_tracer;
 
 use contract::{Animation, Camera, DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
+use rayon::prelude::*;
 use serde_json::Value;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
@@ -396,24 +397,32 @@ fn every_command_of_the_page_runs() {
         return;
     }
     let page = std::fs::read_to_string(root().join("docs/own-tracer.md")).expect("it is there");
-    let desk = desk();
     let commands: Vec<&str> =
         page.lines().filter(|line| line.starts_with("cgt ") && line.contains("tracer.py")).collect();
     assert!(commands.len() >= 5, "{commands:?}");
-    for command in commands {
+    // Side by side, each in a folder of its own.
+    let ran = commands.par_iter().with_max_len(1).map(|command| {
+        let desk = desk();
         let words = shlex::split(command).expect("a command");
         let words: Vec<&str> = words.iter().skip(1).map(String::as_str).collect();
         let output = cgt(desk.path(), &words);
         assert_eq!(output.status.code(), Some(0), "{command}\n{}", said(&output));
         assert!(said(&output).contains("mine"), "{command}\n{}", said(&output));
-    }
-    let table = std::fs::read_to_string(desk.path().join("cgt-chart/chart.csv")).expect("a table");
+        desk
+    });
+    let desks: Vec<TempDir> = ran.collect();
+    let of = |word: &str| {
+        let place = commands.iter().position(|command| command.split(' ').nth(1) == Some(word));
+        desks[place.expect(word)].path()
+    };
+    let table = std::fs::read_to_string(of("chart").join("cgt-chart/chart.csv")).expect("a table");
     let row = table.lines().find(|line| line.contains(",mine,foreign,")).expect("a row of its own");
     let cells: Vec<&str> = row.split(',').collect();
     assert!(cells[9].parse::<f64>().is_ok_and(|ns| ns > 10.0), "{row}");
-    let report: Value =
-        serde_json::from_slice(&std::fs::read(desk.path().join("cgt-report/report.json")).expect("a report"))
-            .expect("JSON");
+    let report: Value = serde_json::from_slice(
+        &std::fs::read(of("report").join("cgt-report/report.json")).expect("a report"),
+    )
+    .expect("JSON");
     let names =
         report["scenes"][0]["subjects"].as_array().expect("subjects").iter().map(|subject| &subject["name"]);
     assert!(names.into_iter().any(|name| name == "mine"), "{report}");

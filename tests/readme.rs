@@ -1,6 +1,7 @@
 //! Is every word of README that can be checked true? Its commands are run, its table of claims is the program's, its
 //! links lead somewhere, its pictures come out again, and the output it shows is what the program prints.
 
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::OnceLock;
@@ -150,8 +151,12 @@ fn commands_work_and_pictures_come_out_again() {
     }
     let mut pictures = drawn(&root().join("docs"));
     assert!(!pictures.is_empty(), "README has pictures");
-    for line in commands.iter().filter(|line| NOT_RUN.iter().all(|(exempt, _)| exempt != line)) {
-        let own = (line != FIRST_COMMAND).then(|| run(line));
+    let lines: Vec<&String> =
+        commands.iter().filter(|line| NOT_RUN.iter().all(|(exempt, _)| exempt != line)).collect();
+    // Side by side, each in a folder of its own.
+    let own = |line: &&String| (line.as_str() != FIRST_COMMAND).then(|| run(line));
+    let ran: Vec<_> = lines.par_iter().with_max_len(1).map(own).collect();
+    for (line, own) in lines.into_iter().zip(&ran) {
         let (desk, output) = own.as_ref().unwrap_or_else(|| first());
         let said = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         // The paper's plan is shown because it is wrong: a mismatch.

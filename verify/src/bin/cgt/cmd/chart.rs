@@ -15,7 +15,7 @@ use verify::report::Absent;
 use verify::seed::seed;
 
 /// Columns and rows of a picture where no size is asked for: slow methods take part.
-pub(crate) const SIZE: [u32; 2] = [320, 180];
+const SIZE: [u32; 2] = [320, 180];
 
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;

@@ -132,7 +132,7 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
             level: None,
             out: folder.clone(),
             own: args.own.clone(),
-            view: args::View { size: Some(Size::new(chart::SIZE[0], chart::SIZE[1])?), ..view.clone() },
+            view: args::View { size: args.size, ..view.clone() },
         })?;
         files::data("chart", folder, &charted, Some(charted.csv()?))?;
         chapter("where methods break");
