@@ -425,6 +425,14 @@ fn charts_maps_and_the_report_are_made() {
     for name in ["chart.csv", "stability.json", "ablation.csv", "report.json"] {
         assert!(desk.path("all").join(name).is_file(), "{name}");
     }
+    let data = std::fs::read(desk.path("all").join("chart.json")).expect("there is data");
+    let chart: Value = serde_json::from_slice(&data).expect("it is JSON");
+    let views = chart["views"].as_array().expect("views");
+    let asked = |view: &Value| view["size"] == serde_json::json!([48, 27]);
+    assert!(
+        !views.is_empty() && views.iter().all(asked),
+        "charts of another size than was asked for: {chart:#}"
+    );
     // A film on one page.
     let met =
         desk.run(&["verify", "2juy", "--frames", "3..5", "--plan", "fast", "--size", SMALL, "--out", "film"]);
