@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use reference::Arithmetic as Naive;
 use std::collections::BTreeMap;
 use std::io::Write;
+use std::sync::OnceLock;
 use verify::matrix::{Case, Matrix};
 use verify::scenes::catalogue::{DATA_VARIABLE, ENTRIES, Source};
 
@@ -33,6 +34,28 @@ fn naive(case: &Case, arithmetic: Arithmetic) -> Image {
         Arithmetic::Certified => Naive::Exact,
     };
     reference::Tracer::new(arithmetic).threads(1).render(&case.scene, &case.camera).expect("small").image
+}
+
+/// The matrix with its naive pictures, each made once, by whichever test asks for it first.
+struct Pictures {
+    matrix: Matrix,
+    naive: Vec<[OnceLock<Image>; ARITHMETICS.len()]>,
+}
+
+impl Pictures {
+    fn all() -> &'static Self {
+        static ALL: OnceLock<Pictures> = OnceLock::new();
+        ALL.get_or_init(|| {
+            let matrix = matrix();
+            let naive = matrix.cases.iter().map(|_| [const { OnceLock::new() }; ARITHMETICS.len()]).collect();
+            Self { matrix, naive }
+        })
+    }
+
+    fn naive(&self, case: usize, arithmetic: Arithmetic) -> &Image {
+        let of = ARITHMETICS.iter().position(|&other| other == arithmetic).expect("one of the three");
+        self.naive[case][of].get_or_init(|| naive(&self.matrix.cases[case], arithmetic))
+    }
 }
 
 /// What was at stake in a picture.
@@ -85,10 +108,10 @@ fn report(stakes: &Stakes, none_of: &[&str]) {
 /// `Plan::safe()` in every arithmetic on every case, at the best level.
 #[test]
 fn the_safe_plan_changes_nothing_anywhere() {
-    let (matrix, level) = (matrix(), Level::best().expect("a level"));
-    let each = matrix.cases.par_iter().map(|case| {
+    let (pictures, level) = (Pictures::all(), Level::best().expect("a level"));
+    let each = pictures.matrix.cases.par_iter().enumerate().map(|(i, case)| {
         ARITHMETICS.map(|arithmetic| {
-            judge(case, &naive(case, arithmetic), Plan { arithmetic, ..Plan::safe() }, level, 1)
+            judge(case, pictures.naive(i, arithmetic), Plan { arithmetic, ..Plan::safe() }, level, 1)
         })
     });
     let stakes = each.flatten_iter().reduce(Stakes::new, sum);
@@ -127,7 +150,8 @@ fn plans() -> Vec<Plan> {
 /// workers meets every other and every case is met.
 #[test]
 fn every_combination_changes_nothing() {
-    let (matrix, levels) = (matrix(), Level::available());
+    let (pictures, levels) = (Pictures::all(), Level::available());
+    let cases = &pictures.matrix.cases;
     let plans = plans();
     let workers = [1, 2, 3, 5, 8];
     let mut tasks = Vec::new();
@@ -135,7 +159,7 @@ fn every_combination_changes_nothing() {
         for (l, level) in levels.iter().enumerate() {
             for (w, workers) in workers.iter().enumerate() {
                 let sharing = if (p + l + w) % 4 == 0 { Sharing::Mirrored } else { Sharing::Shared };
-                let case = (tasks.len() * 7) % matrix.cases.len();
+                let case = (tasks.len() * 7) % cases.len();
                 tasks.push((Plan { sharing, ..*plan }, *level, *workers, case));
             }
         }
@@ -144,8 +168,7 @@ fn every_combination_changes_nothing() {
     assert_eq!(tasks.len(), 192 * levels.len() * workers.len());
     eprintln!("levels: {}", levels.iter().map(|level| level.name()).collect::<Vec<_>>().join(", "));
     let each = tasks.par_iter().map(|&(plan, level, workers, case)| {
-        let case = &matrix.cases[case];
-        judge(case, &naive(case, plan.arithmetic), plan, level, workers)
+        judge(&cases[case], pictures.naive(case, plan.arithmetic), plan, level, workers)
     });
     let stakes = each.reduce(Stakes::new, sum);
     report(&stakes, &[]);

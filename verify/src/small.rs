@@ -8,7 +8,6 @@
 
 use optimized::host::Scalar;
 use optimized::machine::{LANES, Machine, Site};
-use std::array::from_fn;
 
 /// Where a result between two floats goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +39,7 @@ impl Small {
     }
 
     /// The float that stands for x.
+    #[inline]
     #[must_use]
     #[allow(clippy::cast_possible_truncation, reason = "few bits are left")]
     pub fn round(self, x: f64) -> f32 {
@@ -51,8 +51,11 @@ impl Small {
         f64::from_bits((x.to_bits() + half) >> drop << drop) as f32
     }
 
-    fn each(self, x: [f32; LANES], y: [f32; LANES], op: impl Fn(f64, f64) -> f64) -> [f32; LANES] {
-        from_fn(|i| self.round(op(f64::from(x[i]), f64::from(y[i]))))
+    fn each(self, mut x: [f32; LANES], y: [f32; LANES], op: impl Fn(f64, f64) -> f64) -> [f32; LANES] {
+        for (x, y) in x.iter_mut().zip(y) {
+            *x = self.round(op(f64::from(*x), f64::from(y)));
+        }
+        x
     }
 }
 

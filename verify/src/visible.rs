@@ -91,6 +91,7 @@ fn for_each_ray(
     mut check: impl FnMut(&Packet<'_>) -> Result<(), String>,
 ) -> Result<(), String> {
     let Some(grid) = &seen.grid else { return Ok(()) };
+    let planes = planes(grid);
     let reach =
         |(p, s): (&Prepared, &Sphere)| margin::reach(seen.plan.margins, seen.plan.arithmetic, p.f, s.radius);
     let farthest = seen.spheres.iter().zip(scene.spheres()).map(reach).fold(0.0, f32::max);
@@ -111,7 +112,15 @@ fn for_each_ray(
                 let slices = frustum.slices(m, seen.eye, grid, seen.plan.margins);
                 for lane in lanes {
                     let ray = Ray { eye: seen.eye, dir: packet.dir.map(|d| d[lane]) };
-                    check(&Packet { seen, grid, frustum: &frustum, slices: &slices, ray, farthest })?;
+                    check(&Packet {
+                        seen,
+                        grid,
+                        planes: &planes,
+                        frustum: &frustum,
+                        slices: &slices,
+                        ray,
+                        farthest,
+                    })?;
                 }
             }
         }
@@ -122,6 +131,8 @@ fn for_each_ray(
 struct Packet<'a> {
     seen: &'a Seen,
     grid: &'a Grid,
+    /// Its planes on each axis, as a point's coordinates are.
+    planes: &'a [Vec<IBig>; 3],
     frustum: &'a Frustum<Scalar>,
     slices: &'a Slices,
     ray: Ray,
@@ -147,15 +158,13 @@ impl Packet<'_> {
         let f = self.seen.spheres[id as usize].f;
         let reach = margin::reach(plan.margins, plan.arithmetic, f, sphere.radius);
         let cell = match (plan.voxelizer, plan.arithmetic) {
-            (Voxelizer::ByCenter, _) => {
-                [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &(integer(sphere.center[i]) << 149)))
-            }
-            (_, Arithmetic::Rounded(_) | Arithmetic::Spu(_)) => self.cell(&point),
+            (Voxelizer::ByCenter, _) => cell_of(self.planes, &Point::at(sphere.center)),
+            (_, Arithmetic::Rounded(_) | Arithmetic::Spu(_)) => cell_of(self.planes, &point),
             // The true point lies between those of t's neighbours, and so does its cell.
             (_, Arithmetic::Certified) => {
                 let [before, after] = [hit.t.next_down(), hit.t.next_up()];
-                let cell = self.cell(&Point::on(&self.ray, before));
-                if cell != self.cell(&Point::on(&self.ray, after)) {
+                let cell = cell_of(self.planes, &Point::on(&self.ray, before));
+                if cell != cell_of(self.planes, &Point::on(&self.ray, after)) {
                     return Ok(());
                 }
                 cell
@@ -173,14 +182,10 @@ impl Packet<'_> {
             return say("culled");
         }
         checked.hits += 1;
-        checked.near_planes += u64::from((0..3).any(|i| point.near_plane(i, &self.grid.axes[i])));
+        checked.near_planes += u64::from(point.near_plane(self.planes));
         checked.beyond_surface +=
             u64::from(!point.within(sphere.center, sphere.radius * (1.0 + 1.0 / 1_048_576.0)));
         Ok(())
-    }
-
-    fn cell(&self, point: &Point) -> [usize; 3] {
-        [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &point.0[i]))
     }
 
     /// Whether the walk comes to a cell.
@@ -224,8 +229,7 @@ impl Packet<'_> {
         if !(planes[0]..=planes[planes.len() - 1]).contains(&center[i]) {
             return Ok(());
         }
-        let cell = [0, 1, 2].map(|i| cell_of(&self.grid.axes[i], &(integer(center[i]) << 149)));
-        self.visits(cell)
+        self.visits(cell_of(self.planes, &Point::at(center)))
             .map_err(|why| format!("a sphere with its centre at {center:?} reaches the point; {why}"))
     }
 
@@ -242,11 +246,11 @@ impl Packet<'_> {
                 t = if rng.random() { t.next_up() } else { t.next_down() };
             }
             let point = Point::on(ray, if t.is_finite() && t > 0.0 { t } else { continue });
-            if !point.in_grid(self.grid) {
+            if !point.within_planes(self.planes) {
                 continue;
             }
             let say = |what: &str| Err(format!("{what}: t = {t:?}, {ray:?}, {}", self.seen.plan));
-            self.visits(self.cell(&point)).or_else(|why| say(&why))?;
+            self.visits(cell_of(self.planes, &point)).or_else(|why| say(&why))?;
             checked.points += 1;
             self.check_center(&point, rng).or_else(|why| say(&why))?;
 
@@ -275,15 +279,18 @@ impl Packet<'_> {
 pub fn listing_is_complete(seen: &Seen, scene: &Scene) -> Result<Checked, String> {
     let mut checked = Checked::default();
     let Some(grid) = &seen.grid else { return Ok(checked) };
+    let planes = planes(grid);
     for (id, sphere) in (0..).zip(scene.spheres()) {
         let prepared = &seen.spheres[id as usize];
         let reach = margin::reach(seen.plan.margins, seen.plan.arithmetic, prepared.f, sphere.radius);
+        let home = cell_of(&planes, &Point::at(sphere.center));
+        let gaps = [0, 1, 2].map(|i| -> Vec<Gap> {
+            (0..planes[i].len() - 1).map(|cell| Gap::of(&grid.axes[i], cell, sphere.center[i])).collect()
+        });
         for cell in all_cells(grid) {
             let holds = match seen.plan.voxelizer {
-                Voxelizer::ByCenter => {
-                    cell == [0, 1, 2].map(|i| cell_of(&grid.axes[i], &(integer(sphere.center[i]) << 149)))
-                }
-                _ => meets(grid, cell, sphere.center, reach),
+                Voxelizer::ByCenter => cell == home,
+                _ => reaches([0, 1, 2].map(|i| &gaps[i][cell[i]]), reach),
             };
             checked.cells += 1;
             checked.overlapping += u64::from(holds);
@@ -375,25 +382,26 @@ impl Point {
         Self([0, 1, 2].map(|i| (integer(ray.eye[i]) << 149) + integer(t) * integer(ray.dir[i])))
     }
 
+    fn at(place: [f32; 3]) -> Self {
+        Self(place.map(|x| integer(x) << 149))
+    }
+
     fn within(&self, center: [f32; 3], radius: f32) -> bool {
-        let d = [0, 1, 2].map(|i| &self.0[i] - (integer(center[i]) << 149));
+        let center = Self::at(center);
+        let d = [0, 1, 2].map(|i| &self.0[i] - &center.0[i]);
         let r = integer(radius) << 149;
         &d[0] * &d[0] + &d[1] * &d[1] + &d[2] * &d[2] <= &r * &r
     }
 
-    fn in_grid(&self, grid: &Grid) -> bool {
-        (0..3).all(|i| {
-            let planes = &grid.axes[i].planes;
-            let at = |plane: f32| integer(plane) << 149;
-            at(planes[0]) <= self.0[i] && self.0[i] <= at(planes[planes.len() - 1])
-        })
+    fn within_planes(&self, planes: &[Vec<IBig>; 3]) -> bool {
+        (0..3).all(|i| planes[i][0] <= self.0[i] && self.0[i] <= planes[i][planes[i].len() - 1])
     }
 
     /// The least f32 not below the distance of a point; `None` beyond f32.
     #[allow(clippy::cast_possible_truncation, reason = "a start for the search")]
     fn distance_up(&self, from: [f32; 3]) -> Option<f32> {
-        let d =
-            [0, 1, 2].map(|i| (&self.0[i] - (integer(from[i]) << 149)).to_f64().value() * 2f64.powi(-298));
+        let center = Self::at(from);
+        let d = [0, 1, 2].map(|i| to_f64(&(&self.0[i] - &center.0[i])));
         let mut radius = d.iter().map(|x| x * x).sum::<f64>().sqrt() as f32;
         while radius > 0.0 && self.within(from, radius) {
             radius = radius.next_down();
@@ -404,39 +412,62 @@ impl Point {
         (radius.is_finite() && radius > 0.0).then_some(radius)
     }
 
-    fn near_plane(&self, i: usize, axis: &Axis) -> bool {
-        let last = axis.planes.len() - 1;
-        let extent = (integer(axis.planes[last]) - integer(axis.planes[0])) << 149;
-        axis.planes.iter().any(|&plane| {
-            let distance: IBig = (&self.0[i] - (integer(plane) << 149)) << 12;
-            -extent.clone() <= distance && distance <= extent
+    fn near_plane(&self, planes: &[Vec<IBig>; 3]) -> bool {
+        (0..3).any(|i| {
+            let limit = (&planes[i][planes[i].len() - 1] - &planes[i][0]) >> 12;
+            planes[i].iter().any(|plane| (-&limit..=limit.clone()).contains(&(&self.0[i] - plane)))
         })
     }
 }
 
-/// The cell of a coordinate times 2²⁹⁸: as many planes as are not above it, but for the two ends.
-fn cell_of(axis: &Axis, x: &IBig) -> usize {
-    let inner = &axis.planes[1..axis.planes.len() - 1];
-    inner.iter().filter(|&&plane| (integer(plane) << 149) <= *x).count()
+/// A grid's planes on each axis, times 2²⁹⁸.
+fn planes(grid: &Grid) -> [Vec<IBig>; 3] {
+    grid.axes.each_ref().map(|axis| axis.planes.iter().map(|&plane| integer(plane) << 149).collect())
 }
 
-/// Whether a closed ball holds a real point of a cell. A cell has its lower planes and not its upper ones; the cells at the
-/// ends reach on for ever.
-fn meets(grid: &Grid, cell: [usize; 3], center: [f32; 3], radius: f32) -> bool {
-    let (mut square, mut open) = (IBig::ZERO, false);
-    for i in 0..3 {
-        let (planes, c) = (&grid.axes[i].planes, integer(center[i]));
-        let lower = (cell[i] > 0).then(|| integer(planes[cell[i]]));
-        let upper = (cell[i] + 2 < planes.len()).then(|| integer(planes[cell[i] + 1]));
-        let below = lower.map(|lower| lower - &c).filter(|d| *d > IBig::ZERO);
-        let above = upper.map(|upper| &c - upper).filter(|d| *d >= IBig::ZERO);
-        open |= above.is_some();
+/// The cell of a point: on each axis as many planes as are not above it, but for the two ends.
+fn cell_of(planes: &[Vec<IBig>; 3], point: &Point) -> [usize; 3] {
+    [0, 1, 2].map(|i| {
+        let inner = &planes[i][1..planes[i].len() - 1];
+        inner.iter().filter(|&plane| *plane <= point.0[i]).count()
+    })
+}
+
+/// What lies between a coordinate and a cell's stretch of an axis. A cell has its lower plane and not its upper one; the cells
+/// at the ends reach on for ever.
+struct Gap {
+    /// The distance, squared, times 2²⁹⁸.
+    square: IBig,
+    /// Whether the cell ends just short of that distance: at its upper plane.
+    open: bool,
+}
+
+impl Gap {
+    fn of(axis: &Axis, cell: usize, x: f32) -> Self {
+        let (planes, x) = (&axis.planes, integer(x));
+        let lower = (cell > 0).then(|| integer(planes[cell]));
+        let upper = (cell + 2 < planes.len()).then(|| integer(planes[cell + 1]));
+        let below = lower.map(|lower| lower - &x).filter(|d| *d > IBig::ZERO);
+        let above = upper.map(|upper| x - upper).filter(|d| *d >= IBig::ZERO);
+        let open = above.is_some();
         let outside = below.or(above).unwrap_or(IBig::ZERO);
-        square += &outside * &outside;
+        Self { square: &outside * &outside, open }
     }
+}
+
+/// Whether a closed ball so far from a cell on each axis holds a real point of it.
+fn reaches(gaps: [&Gap; 3], radius: f32) -> bool {
+    let (square, open) =
+        (&gaps[0].square + &gaps[1].square + &gaps[2].square, gaps.iter().any(|gap| gap.open));
     let r = integer(radius);
     let limit = &r * &r;
     if open { square < limit } else { square <= limit }
+}
+
+/// Whether a closed ball holds a real point of a cell.
+fn meets(grid: &Grid, cell: [usize; 3], center: [f32; 3], radius: f32) -> bool {
+    let gaps = [0, 1, 2].map(|i| Gap::of(&grid.axes[i], cell[i], center[i]));
+    reaches(gaps.each_ref(), radius)
 }
 
 /// All cells of a grid, in the order of their indices.
