@@ -106,7 +106,7 @@ fn threads_change_nothing() {
 /// The variable that says that the test below is run with little memory.
 const LITTLE_MEMORY: &str = "CGT_LITTLE_MEMORY";
 
-/// Asks for more threads than there is memory for their stacks; run by the next test with so little.
+/// Asks for more threads than there is room for their stacks; run by the next test with so little.
 #[test]
 fn too_many_threads_are_asked_for() {
     if std::env::var_os(LITTLE_MEMORY).is_some() {
@@ -119,13 +119,15 @@ fn too_many_threads_are_asked_for() {
     }
 }
 
-/// Threads that cannot be had are refused with the number that was asked for.
+/// Threads that cannot be had are refused with the number that was asked for. Stacks of 2 GiB in 8 GiB: one of the first has no
+/// room, and all else has, which small stacks that fill up everything would not leave it.
 #[test]
 #[cfg(target_os = "linux")]
 fn threads_that_cannot_be_had_are_refused() {
-    let script = "ulimit -v 1048576 && exec \"$0\" --exact too_many_threads_are_asked_for --nocapture";
+    let script = "ulimit -v 8388608 && exec \"$0\" --exact too_many_threads_are_asked_for --nocapture";
     let mut child = std::process::Command::new("sh");
-    child.args(["-c", script]).arg(std::env::current_exe().expect("this program")).env(LITTLE_MEMORY, "1");
+    child.args(["-c", script]).arg(std::env::current_exe().expect("this program"));
+    child.env(LITTLE_MEMORY, "1").env("RUST_MIN_STACK", (2u64 << 30).to_string());
     let output = child.output().expect("a shell");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && said.contains("cannot start 5000 threads: "), "{said}");

@@ -283,6 +283,7 @@ pub fn listing_is_complete(seen: &Seen, scene: &Scene) -> Result<Checked, String
     for (id, sphere) in (0..).zip(scene.spheres()) {
         let prepared = &seen.spheres[id as usize];
         let reach = margin::reach(seen.plan.margins, seen.plan.arithmetic, prepared.f, sphere.radius);
+        let reach_square = square(reach);
         let home = cell_of(&planes, &Point::at(sphere.center));
         let gaps = [0, 1, 2].map(|i| -> Vec<Gap> {
             (0..planes[i].len() - 1).map(|cell| Gap::of(&grid.axes[i], cell, sphere.center[i])).collect()
@@ -290,7 +291,7 @@ pub fn listing_is_complete(seen: &Seen, scene: &Scene) -> Result<Checked, String
         for cell in all_cells(grid) {
             let holds = match seen.plan.voxelizer {
                 Voxelizer::ByCenter => cell == home,
-                _ => reaches([0, 1, 2].map(|i| &gaps[i][cell[i]]), reach),
+                _ => reaches([0, 1, 2].map(|i| &gaps[i][cell[i]]), &reach_square),
             };
             checked.cells += 1;
             checked.overlapping += u64::from(holds);
@@ -364,14 +365,18 @@ pub fn overlapped(grid: &Grid, center: [f32; 3], radius: f32) -> Vec<[usize; 3]>
         // A cell more than f64 says on either side.
         at(c - r).saturating_sub(1)..(at(c + r) + 2).min(grid.axes[i].planes.len() - 1)
     };
-    let [x, y, z] = [0, 1, 2].map(range);
-    let all = x.flat_map(|i| {
-        y.clone().flat_map({
-            let z = z.clone();
-            move |j| z.clone().map(move |k| [i, j, k])
-        })
+    let [x, y, z] = [0, 1, 2].map(|i| -> Vec<_> {
+        range(i).map(|cell| (cell, Gap::of(&grid.axes[i], cell, center[i]))).collect()
     });
-    all.filter(|cell| meets(grid, *cell, center, radius)).collect()
+    let (square, mut cells) = (square(radius), Vec::new());
+    for (i, on_x) in &x {
+        for (j, on_y) in &y {
+            cells.extend(
+                z.iter().filter(|(_, on_z)| reaches([on_x, on_y, on_z], &square)).map(|(k, _)| [*i, *j, *k]),
+            );
+        }
+    }
+    cells
 }
 
 /// A point times 2²⁹⁸.
@@ -455,19 +460,23 @@ impl Gap {
     }
 }
 
-/// Whether a closed ball so far from a cell on each axis holds a real point of it.
-fn reaches(gaps: [&Gap; 3], radius: f32) -> bool {
+/// A radius, squared, times 2²⁹⁸.
+fn square(radius: f32) -> IBig {
+    let radius = integer(radius);
+    &radius * &radius
+}
+
+/// Whether a closed ball so far from a cell on each axis, and of a radius whose square is `limit`, holds a real point of it.
+fn reaches(gaps: [&Gap; 3], limit: &IBig) -> bool {
     let (square, open) =
         (&gaps[0].square + &gaps[1].square + &gaps[2].square, gaps.iter().any(|gap| gap.open));
-    let r = integer(radius);
-    let limit = &r * &r;
-    if open { square < limit } else { square <= limit }
+    if open { square < *limit } else { square <= *limit }
 }
 
 /// Whether a closed ball holds a real point of a cell.
 fn meets(grid: &Grid, cell: [usize; 3], center: [f32; 3], radius: f32) -> bool {
     let gaps = [0, 1, 2].map(|i| Gap::of(&grid.axes[i], cell[i], center[i]));
-    reaches(gaps.each_ref(), radius)
+    reaches(gaps.each_ref(), &square(radius))
 }
 
 /// All cells of a grid, in the order of their indices.
