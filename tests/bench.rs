@@ -730,11 +730,12 @@ fn a_baseline_of_something_else_is_refused() {
         for (place, value) in changes {
             *earlier.pointer_mut(place).unwrap_or_else(|| panic!("{place} is not there")) = value.clone();
         }
-        compare(&earlier.to_string(), &bench)
+        compare(&earlier.to_string(), &bench, 0.1)
     };
     let faster =
         held(&[("/scenes/0/contestants/0/mega_rays_per_second", json!(9.5))]).expect("the same scene");
-    assert_eq!(faster, [Step { scene: "made-up".into(), measure: "Mray/s", before: 9.5, now: 1e-2 / 2e-3 }]);
+    let step = Step { scene: "made-up".into(), measure: "Mray/s", before: 9.5, now: 1e-2 / 2e-3 };
+    assert_eq!((faster.steps, faster.missing), (vec![step], Vec::new()));
     for (place, value) in
         [("/environment/cpu", json!("another")), ("/plan", json!("safe")), ("/level", json!("avx2"))]
     {
@@ -757,9 +758,18 @@ fn a_baseline_of_something_else_is_refused() {
     let theirs = |ratio: Value| {
         let mut earlier = honest.clone();
         earlier["scenes"][0]["ratio_to_embree"] = ratio;
-        compare(&earlier.to_string(), &ours).expect("the same scene").remove(0)
+        compare(&earlier.to_string(), &ours, 0.1).expect("the same scene").steps.remove(0)
     };
     let told = |step: Step| (step.measure, step.before, step.now);
     assert_eq!(told(theirs(json!(11.0))), ("ratio to Embree", 11.0, 12.0));
     assert_eq!(told(theirs(Value::Null)).0, "Mray/s");
+    // A scene that the baseline has not is named, whatever the others are.
+    let mut more = bench.clone();
+    more.scenes.push(more.scenes[0].clone());
+    more.scenes[1].name = "newer".into();
+    let held = compare(&honest.to_string(), &more, 0.1).expect("one of two is the same");
+    assert_eq!((held.steps.len(), held.missing.as_slice()), (1, &["newer".to_owned()][..]));
+    more.baseline = Some(held);
+    let told = text(&more, false);
+    assert!(told.contains("baseline, newer: not compared."), "{told}");
 }

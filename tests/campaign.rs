@@ -211,7 +211,23 @@ fn a_shard_that_was_cut_anywhere_goes_on() {
         let file = done(&plan, "3/3", again.path());
         assert!(std::fs::read(&file).expect("readable") == text, "cut at {cut} of {}", text.len());
         assert!(!part.exists());
+        // So is a whole one that lost its end later; of one without a first line nobody knows what it was.
+        std::fs::write(&file, &text[..cut]).expect("written");
+        if cut > ends[0] {
+            assert_eq!(done(&plan, "3/3", again.path()), file);
+            assert!(std::fs::read(&file).expect("readable") == text, "whole, cut at {cut} of {}", text.len());
+            assert!(!part.exists());
+        } else {
+            let error = run(&plan, which("3/3"), Level::SCALAR, again.path(), &|_, _| ())
+                .expect_err("nothing is left");
+            assert!(error.to_string().contains("it is empty"), "{error}");
+        }
     }
+    // Nor is a whole shard of another plan taken for this one's.
+    let other = Plan { seed: plan.seed + 1, ..plan.clone() };
+    let error =
+        run(&other, which("3/3"), Level::SCALAR, whole.path(), &|_, _| ()).expect_err("of another plan");
+    assert!(matches!(error, ShardError::Other { .. }), "{error}");
     // What is not this shard's is not gone over.
     let strange = folder();
     std::fs::write(which("1/3").part(strange.path()), &text).expect("written");
@@ -423,6 +439,27 @@ fn plans_that_make_no_sense_are_refused() {
     assert!(matches!(with("cases = 20", "cases = 1000000000000000"), PlanError::TooMuch { .. }));
     assert!(with("seed = 7", "seed = 7\nsede = 8").to_string().contains("sede"));
     assert!(with("\"pictures\"", "\"paintings\"").to_string().contains("paintings"));
+    // A frame of a film counts once for a tracer: in one list, and in two films that overlap.
+    let film = |frames: &str, size: &str, subjects: &str| {
+        format!(
+            "[[film]]\nscene = \"2juy\"\nframes = \"{frames}\"\nsize = \"{size}\"\nsubjects = [{subjects}]\n"
+        )
+    };
+    let two = |one: String, other: String| Plan::parse(&format!("name = \"x\"\nseed = 1\n{one}{other}"));
+    let again = |plan: Result<Plan, PlanError>| matches!(plan, Err(PlanError::Again { subject, .. }) if subject == "fast");
+    assert!(again(two(film("0..4", "40x24", "\"fast\", \"safe\", \"fast\""), String::new())));
+    for frames in ["3..7", "0..1", "1..2", "0..9"] {
+        assert!(
+            again(two(film("0..4", "40x24", "\"fast\""), film(frames, "40x24", "\"safe\", \"fast\""))),
+            "{frames}"
+        );
+    }
+    for (frames, size, subject) in
+        [("4..7", "40x24", "fast"), ("0..4", "40x25", "fast"), ("0..4", "40x24", "safe")]
+    {
+        let other = film(frames, size, &format!("\"{subject}\""));
+        assert!(two(film("0..4", "40x24", "\"fast\""), other).is_ok(), "{frames} {size} {subject}");
+    }
     for (from, to) in
         [("3..7", "7..3"), ("3..7", "3"), ("40x24", "0x24"), ("40x24", "wide"), ("\"fast\"", "\"slow\"")]
     {

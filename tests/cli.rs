@@ -327,12 +327,41 @@ fn the_first_wrong_pixel_is_told_with_a_command_that_comes_to_it_again() {
     let told = first.as_str().expect("the textbook form is never all equal here").to_owned();
     let labels: Vec<_> = told.lines().map(|line| line.split(' ').next().unwrap_or_default()).collect();
     assert_eq!(labels, ["pixel", "eye", "direction", "truth", "subject", "replay"]);
-    let replay =
-        told.lines().last().and_then(|line| line.strip_prefix("replay     cgt ")).expect("a command");
+    let replay = replay(&told);
     let mut shell = desk.command("sh");
     let said = desk.finish(shell.args(["-c", &format!("\"$0\" {replay} --out replayed"), CGT]));
     assert_eq!(said.code, 0, "{replay}: {}", said.err);
     assert_eq!(account(&report(&desk.path("replayed"))), first);
+}
+
+/// The command in an account.
+fn replay(told: &str) -> &str {
+    told.lines().last().and_then(|line| line.strip_prefix("replay     cgt ")).expect("a command")
+}
+
+/// It has the frame, the whole view, and of the grid tracer the plan, the level of many and the cells: typed again, it comes to the same
+/// pixel, with the same two lines before it.
+#[test]
+fn an_account_says_what_comes_to_it_again() {
+    let desk = Desk::new();
+    let view = "--size 64x36 --eye 0,-60,5 --target 1,2,3 --up 0,0.3,1 --fov 40";
+    let words = format!("verify 2juy --frame 3 --plan paper --level all --grid 7 {view}");
+    assert_eq!(desk.run(&words.split(' ').collect::<Vec<_>>()).code, 1, "the paper's plan is wrong there");
+    let all = report(&desk.path("cgt-report"));
+    for subject in all["scenes"][0]["subjects"].as_array().expect("subjects").iter().take(2) {
+        let told = subject["first_wrong"].as_str().expect("an account");
+        let replay = replay(told);
+        let said = desk.run(&format!("{replay} --out again").split(' ').collect::<Vec<_>>());
+        assert_eq!(said.code, 1, "{replay}: {}{}", said.out, said.err);
+        let again = report(&desk.path("again"));
+        assert_eq!(again["scenes"][0]["subjects"].as_array().map(Vec::len), Some(1), "{replay}: one tracer");
+        let again = again["scenes"][0]["subjects"][0].clone();
+        assert_eq!(again["first_wrong"].as_str(), Some(told), "{replay}");
+        // The tracer itself, not one that happens to be wrong in the same way.
+        let level = subject["name"].as_str().and_then(|name| name.strip_prefix("paper@")).expect("a level");
+        assert!(replay.contains(&format!("--plan paper --level {level} --grid 7")), "{replay}");
+        assert_eq!(again["description"], subject["description"], "{replay}");
+    }
 }
 
 #[test]

@@ -77,6 +77,9 @@ fn judge(case: &Case, naive: &Image, plan: Plan, level: Level, workers: usize) -
     let count =
         |is: fn(&Event) -> bool| rendering.events.first().iter().filter(|event| is(event)).count() as u64;
     let counts = rendering.counts;
+    if plan.culling == Culling::None {
+        assert_eq!(counts.culled, 0, "{}: {plan}, {level}: dropped by planes that are not there", case.name);
+    }
     BTreeMap::from([
         ("pictures", 1),
         ("hits", naive.ids.iter().filter(|&&id| id != MISS).count() as u64),
@@ -271,7 +274,7 @@ fn events_say_what_was_found() {
     let corners =
         Plan { voxelizer: Voxelizer::EightCorners, resolution: Resolution::Fixed(8), ..Plan::safe() };
     for axis in 0..3 {
-        // Cells of 1 on that axis and 5 on the others, in which the balls span three, and one or two.
+        // Cells of 1 on that axis and 5 on the others, in which the balls span three, four and seven, and one or two.
         let at = |x: f32, y: f32, z: f32| {
             let mut center = [y, y, y];
             (center[axis], center[(axis + 1) % 3], center[(axis + 2) % 3]) = (x, y, z);
@@ -282,13 +285,15 @@ fn events_say_what_was_found() {
             ball([0.0; 3], 0.001),
             wide,
             ball(at(8.0, 40.0, 40.0), 0.001),
-            ball(at(5.5, 2.5, 2.5), 1.25),
+            ball(at(5.0, 2.5, 2.5), 1.5),
+            ball(at(4.2, 10.0, 20.0), 2.9),
         ];
         let scene = Scene::new(spheres, [0; 3], contract::DEFAULT_LIGHT).expect("valid");
         let render = |on_event| {
             Tracer::new(Plan { on_event, ..corners }, level).render(&scene, &square([20.0, 20.0, 90.0]))
         };
-        let expected = [1, 3].map(|sphere| Event::SpansCells { sphere, axis, cells: 3 });
+        let spans = [(1, 3), (3, 4), (4, 7)];
+        let expected = spans.map(|(sphere, cells)| Event::SpansCells { sphere, axis, cells });
         for on_event in [OnEvent::FallBack, OnEvent::GoOn] {
             assert_eq!(render(on_event).expect("goes on").events.first(), expected, "axis {axis}");
         }
@@ -582,6 +587,85 @@ fn the_matrix_has_all_that_can_go_wrong() {
         sizes.contains_key(&[1, 1]) && sizes.keys().any(|[w, h]| w > h) && sizes.keys().any(|[w, h]| w < h)
     );
     assert!(within > 10 && twins >= 17, "{within} eyes within, {twins} scenes of twins");
+}
+
+/// Spheres that are all as large as the grid, each in nearly every cell of it.
+fn crowd(spheres: u32) -> Scene {
+    let at = |i: u32, step: u32| (i * step % spheres) as f32 / spheres as f32;
+    let ball = |i| Sphere { center: [at(i, 1), at(i, 7), at(i, 31)], radius: 10.0, color: [9; 3] };
+    Scene::new((0..spheres).map(ball).collect(), [0; 3], contract::DEFAULT_LIGHT).expect("valid")
+}
+
+/// Memory does not go with the square of the spheres: where each is in nearly every cell, cells are made fewer, and no fewer than need be;
+/// the picture stays.
+#[test]
+fn lists_of_a_crowd_do_not_go_with_its_square() {
+    let camera = square([0.5, 0.5, 60.0]);
+    let ids = |spheres: u32, plan: Plan| {
+        let (scene, level) = (crowd(spheres), Level::best().expect("a level"));
+        let mut memory = optimized::grid::Memory::default();
+        let seen = optimized::seen::Seen::new(
+            optimized::host::Scalar,
+            plan,
+            &scene,
+            &camera,
+            &mut memory,
+            &mut Events::default(),
+            &optimized::crew::Crew::alone(),
+        );
+        let grid = seen.expect("no event").grid.expect("in range");
+        let (cells, mut listed): (usize, u64) =
+            (grid.axes.iter().map(|axis| axis.planes.len() - 1).product(), 0);
+        (0..cells).for_each(|cell| grid.for_each_id(cell, true, |_| listed += 1));
+        let image = Tracer::new(plan, level).render(&scene, &camera).expect("no event").image;
+        let naive =
+            reference::Tracer::new(Naive::F32Perpendicular).render(&scene, &camera).expect("small").image;
+        assert!((image.ids == naive.ids) && (image.rgba == naive.rgba), "{spheres} spheres");
+        assert!(
+            image.t.iter().zip(&naive.t).all(|(one, other)| one.to_bits() == other.to_bits()),
+            "{spheres}"
+        );
+        assert!(image.ids.iter().any(|id| *id != MISS), "{spheres} spheres, none seen");
+        listed
+    };
+    for (spheres, divided) in [(900, false), (1_500, true), (3_000, true)] {
+        let (listed, most) = (ids(spheres, Plan::safe()), 512 * u64::from(spheres) + (1 << 22));
+        assert!(listed <= most, "{spheres} spheres: {listed} ids, {most} at most");
+        // Half as many cells on each axis are an eighth in all, and a little more at the ends.
+        assert!(!divided || listed > most / 16, "{spheres} spheres: {listed} ids, of {most} that may be");
+        let fixed = Plan { resolution: Resolution::Fixed(16), ..Plan::safe() };
+        assert!(ids(spheres, fixed) > u64::from(spheres) * 3_000, "what is asked for is had");
+    }
+}
+
+/// The variable that says that the test below is run with little memory.
+const LITTLE_MEMORY: &str = "CGT_LITTLE_MEMORY";
+
+/// Asks for more ids in lists than there is memory for; run by the next test with so little.
+#[test]
+fn more_ids_are_asked_for_than_fit() {
+    if std::env::var_os(LITTLE_MEMORY).is_some() {
+        let (scene, camera) = (crowd(3_000), square([0.5, 0.5, 60.0]));
+        let plan = Plan { resolution: Resolution::Fixed(64), ..Plan::safe() };
+        let tracer = Tracer::new(plan, Level::best().expect("a level"));
+        let image = tracer.render(&scene, &camera).expect("a coarser grid").image;
+        eprintln!("{} pixels hit", image.ids.iter().filter(|id| **id != MISS).count());
+    }
+}
+
+/// A grid that memory cannot hold is made coarser: 64 cells on an axis would list 3 GB of ids, 32 an eighth of it.
+#[test]
+#[cfg(target_os = "linux")]
+fn ids_that_do_not_fit_make_a_grid_coarser() {
+    let script = "ulimit -v 2097152 && exec \"$0\" --exact more_ids_are_asked_for_than_fit --nocapture";
+    let mut child = std::process::Command::new("sh");
+    child.args(["-c", script]).arg(std::env::current_exe().expect("this program")).env(LITTLE_MEMORY, "1");
+    let output = child.output().expect("a shell");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        output.status.success() && said.contains(" pixels hit") && !said.contains("\n0 pixels"),
+        "{said}"
+    );
 }
 
 /// Makes the matrix and no more; run by the next test where there is no data.

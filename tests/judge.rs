@@ -203,10 +203,8 @@ fn a_colour_not_of_its_t_is_wrong() {
     }
 }
 
-/// An eye exactly on a surface sees the far side, or by rounding the near one at a t above 0, and never at 0: that a hit needs t > 0 is no
-/// matter of rounding. In f64 such a t may become 0 when it is rounded to f32, so nothing is asked there.
-#[test]
-fn who_sees_the_surface_it_is_on_is_wrong() {
+/// What is said of a tracer that gives this t for an eye exactly on the surface of a sphere, whose far side is at t = 2.
+fn from_a_surface(t: f32, rounding: Rounding) -> Judgement {
     let ball = Sphere { center: [0.0, 0.0, -1.0], radius: 1.0, color: [9; 3] };
     let scene = Scene::new(vec![ball], [0; 3], DEFAULT_LIGHT).expect("valid");
     let size = Size::new(1, 1).expect("a pixel");
@@ -215,6 +213,27 @@ fn who_sees_the_surface_it_is_on_is_wrong() {
     let truth = Tracer::new(Arithmetic::Exact).render(&scene, &camera).expect("small").image;
     assert_eq!((truth.ids[0], truth.t[0]), (0, 2.0));
     let ray = Ray::of_pixel(&camera, 0, 0);
+    let image = Image { t: vec![t], rgba: vec![shade(&scene, &ray, Hit { id: 0, t })], ..truth.clone() };
+    judge(&scene, &camera, &truth, &image, Promise::Rounded(rounding), None)
+}
+
+/// Such an eye sees one root or the other: no rounding makes a t of what lies between them, or beyond.
+#[test]
+fn what_lies_between_two_roots_is_wrong() {
+    for rounding in FORMS {
+        for t in [0.5f32, 1.0, 1.5, 1.99, 2.01, 4.0] {
+            let judgement = from_a_surface(t, rounding);
+            assert_eq!(judgement.verdict, Verdict::Wrong, "{rounding:?}, t {t:?}: {judgement:?}");
+        }
+        let judgement = from_a_surface(2f32.next_up(), rounding);
+        assert_eq!(judgement.verdict, Verdict::WithinBound, "{rounding:?}: {judgement:?}");
+    }
+}
+
+/// An eye exactly on a surface sees the far side, or by rounding the near one at a t above 0, and never at 0: that a hit needs t > 0 is no
+/// matter of rounding. In f64 such a t may become 0 when it is rounded to f32, so nothing is asked there.
+#[test]
+fn who_sees_the_surface_it_is_on_is_wrong() {
     for rounding in FORMS.into_iter().filter(|form| *form != Rounding::TextbookF64) {
         for (t, verdict) in [
             (0.0, Verdict::Wrong),
@@ -222,9 +241,7 @@ fn who_sees_the_surface_it_is_on_is_wrong() {
             (-f32::MIN_POSITIVE, Verdict::Wrong),
             (f32::MIN_POSITIVE, Verdict::WithinBound),
         ] {
-            let image =
-                Image { t: vec![t], rgba: vec![shade(&scene, &ray, Hit { id: 0, t })], ..truth.clone() };
-            let judgement = judge(&scene, &camera, &truth, &image, Promise::Rounded(rounding), None);
+            let judgement = from_a_surface(t, rounding);
             assert_eq!(judgement.verdict, verdict, "{rounding:?}, t {t:?}: {judgement:?}");
         }
     }
@@ -340,7 +357,7 @@ fn bands_hold_what_the_forms_answer() {
             let answer = Tracer::new(rounding.naive()).trace(&case.ray, &scene);
             let holds = match (answer, band.may_hit) {
                 (None, _) => band.must_hit.is_none(),
-                (Some(hit), Some([lo, hi])) => (lo..=hi).contains(&f64::from(hit.t)),
+                (Some(hit), Some(open)) => open.holds(hit.t),
                 (Some(_), None) => false,
             };
             assert!(
@@ -370,7 +387,7 @@ fn bands_are_narrow_close_by() {
     let ball = |x: f32| Sphere { center: [x, 0.0, -5.0], radius: 1.0, color: [9; 3] };
     for (rounding, units) in [(Rounding::TextbookF32, 2000.0), (Rounding::PerpendicularF32, 500.0)] {
         let head_on = band(rounding, &ray, &ball(0.0)).expect("in range");
-        let [lo, hi] = head_on.may_hit.expect("head on");
+        let [lo, hi] = head_on.may_hit.expect("head on").ends();
         assert!(
             head_on.must_hit.is_some() && hi - lo < units / f64::from(1u32 << 24),
             "{rounding:?}: {head_on:?}"
@@ -378,6 +395,19 @@ fn bands_are_narrow_close_by() {
         let beside = band(rounding, &ray, &ball(1.0001)).expect("in range");
         assert_eq!((beside.must_hit, beside.may_hit), (None, None), "{rounding:?}");
     }
+}
+
+/// "By at most" is of all pixels, not of the last that is wrong.
+#[test]
+fn the_farthest_colour_is_that_of_all_pixels() {
+    let bench = Bench::new();
+    let mut image = bench.truth.clone();
+    for (i, off) in [(0, 2), (7, 9), (20, 3)] {
+        image.rgba[i][1] = image.rgba[i][1].wrapping_add(off);
+    }
+    let found = compare(&bench.truth, &image).expect("same shape");
+    let farthest = [0, 7, 20].map(|i| image.rgba[i][1].abs_diff(bench.truth.rgba[i][1])).into_iter().max();
+    assert_eq!((found.wrong_color, Some(found.color_max)), (3, farthest));
 }
 
 /// Of faults that are equally grave the first in row order is told, whichever the others are.

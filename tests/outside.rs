@@ -3,7 +3,7 @@
 
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use reference::{Arithmetic, Ray, Tracer};
-use verify::judge::band::{Band, band};
+use verify::judge::band::{Band, Open, band};
 use verify::judge::outside::{Adjudicated, Hearing, Stand, Testimony, Witness, hear};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
@@ -194,6 +194,21 @@ fn who_sees_through_a_sphere_is_wrong() {
     assert!(through > 40 && hearing.verdict() == Verdict::Wrong, "{hearing:?}");
 }
 
+/// A sphere whose surface the eye is on is open at its near side; its far side is not, where another is certain to be hit before.
+#[test]
+fn nothing_is_open_behind_what_is_certain() {
+    let ball = |z: f32, radius: f32| Sphere { center: [0.0, 0.0, z], radius, color: [9; 3] };
+    let ray = Ray { eye: [0.0; 3], dir: [0.0, 0.0, -1.0] };
+    let open = |spheres: &[Sphere]| {
+        let stand = Stand::new(&ray, spheres, |ray, sphere| band(Rounding::PerpendicularF32, ray, sphere));
+        let [near, far] =
+            [1e-9, 20.0].map(|t| stand.as_ref().is_some_and(|s| s.open(0).is_some_and(|o| o.holds(t))));
+        (near, far, stand.and_then(|stand| stand.open(1)).is_some_and(|open| open.holds(4.0)))
+    };
+    assert_eq!(open(&[ball(-10.0, 10.0)]), (true, true, false));
+    assert_eq!(open(&[ball(-10.0, 10.0), ball(-5.0, 1.0)]), (true, false, true));
+}
+
 /// Each ray is counted once in each of its places, and what is a failure is named.
 #[test]
 fn every_count_rises_where_it_should() {
@@ -201,8 +216,9 @@ fn every_count_rises_where_it_should() {
     let scene = Scene::new(vec![ball(-5.0), ball(-10.0), ball(-5.0)], [0; 3], DEFAULT_LIGHT).expect("valid");
     let ray = Ray { eye: [0.0; 3], dir: [0.0, 0.0, -1.0] };
     let stand = |miss: bool, spheres: &[u32]| {
-        let range = |id: u32| (id, if id == 1 { [8.9, 9.1] } else { [3.9, 4.1] });
-        Stand { miss, spheres: spheres.iter().map(|id| range(*id)).collect() }
+        let range = |id: u32| if id == 1 { [8.9, 9.1] } else { [3.9, 4.1] };
+        let open = |id: &u32| (*id, Open([Some(range(*id)), None]));
+        Stand { miss, spheres: spheres.iter().map(open).collect() }
     };
     let (miss, near, far, twin) = ((MISS, f32::INFINITY), (0, 4.0), (1, 9.0), (2, 4.0));
     let exact = Hearing { rays: 1, hits: 1, t_ulp: one_at(0), ..Hearing::default() };

@@ -214,12 +214,15 @@ fn a_program_that_breaks_the_protocol_is_named_and_is_no_picture() {
     ));
     let refusing = format!("{read_all} o.write(b'e' + (9).to_bytes(4, 'little') + b'too large')");
     assert_eq!(failure("refuses.py", &refusing), ForeignError::Refused { said: "too large".into() });
-    // What is left over is found before the next frame.
-    let tracer = foreign(&python(
-        desk.path(),
-        "more.py",
-        &broken("out.flush()\n", "out.flush() if False else out.write(bytes(3)), out.flush()\n"),
-    ));
+    // What comes with an answer is surplus, of the last frame too; so is a `d` before `g`, which would stop a clock that has not begun.
+    let more = broken("out.flush()\n", "out.flush() if False else out.write(bytes(3)), out.flush()\n");
+    assert_eq!(failure("more.py", &more), ForeignError::Surplus { bytes: 3 });
+    let early = broken("out.write(b\"r\")", "out.write(b\"rd\")").replace(out, "out.write(");
+    assert_eq!(failure("early.py", &early), ForeignError::Surplus { bytes: 1 });
+    // What comes later is found before the next frame.
+    let late = "out.flush(), __import__(\"time\").sleep(0.03), out.write(bytes(3)), out.flush()\n";
+    let tracer =
+        foreign(&python(desk.path(), "late.py", &broken("    out.flush()\n", &format!("    {late}"))));
     tracer.render(&scene, &camera, 1, &|| ()).expect("the first frame is whole");
     std::thread::sleep(Duration::from_millis(100));
     let error = tracer.render(&scene, &camera, 1, &|| ()).expect_err("three bytes too many");

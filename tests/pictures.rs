@@ -236,6 +236,41 @@ fn files_are_replaced_whole() -> Outcome {
     Ok(())
 }
 
+/// Through a link its file is written; a pipe is written into; a private file stays private, and a new one is as open as any.
+#[cfg(unix)]
+#[test]
+fn links_pipes_and_permissions_stay_what_they_are() -> Outcome {
+    use std::os::unix::fs::{FileTypeExt, PermissionsExt, symlink};
+    let folder = tempfile::tempdir()?;
+    let at = |name: &str| folder.path().join(name);
+    let mode = |name: &str| -> std::io::Result<u32> {
+        Ok(std::fs::metadata(at(name))?.permissions().mode() & 0o777)
+    };
+    std::fs::write(at("plain"), b"before")?;
+    write_atomically(&at("new"), b"now")?;
+    assert_eq!(mode("new")?, mode("plain")?, "the umask's");
+
+    std::fs::create_dir(at("elsewhere"))?;
+    std::fs::write(at("elsewhere/file"), b"before")?;
+    symlink(at("elsewhere/file"), at("link"))?;
+    write_atomically(&at("link"), b"through")?;
+    assert!(at("link").is_symlink() && std::fs::read(at("elsewhere/file"))? == b"through");
+
+    std::fs::set_permissions(at("plain"), std::fs::Permissions::from_mode(0o600))?;
+    write_atomically(&at("plain"), b"after")?;
+    assert_eq!((std::fs::read(at("plain"))?.as_slice(), mode("plain")?), (b"after".as_slice(), 0o600));
+
+    assert!(std::process::Command::new("mkfifo").arg(at("pipe")).status()?.success());
+    let pipe = at("pipe");
+    let reader = std::thread::spawn(move || std::fs::read(pipe));
+    write_atomically(&at("pipe"), b"into")?;
+    assert!(std::fs::symlink_metadata(at("pipe"))?.file_type().is_fifo(), "a file in its place");
+    assert_eq!(reader.join().map_err(|_| "it fell over")??, b"into");
+    let names = std::fs::read_dir(folder.path())?.count();
+    assert_eq!(names, 5, "a temporary file was left");
+    Ok(())
+}
+
 #[test]
 fn a_failed_write_leaves_nothing_behind() -> Outcome {
     let folder = tempfile::tempdir()?;

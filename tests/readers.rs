@@ -10,6 +10,8 @@ mod broken;
 mod real;
 #[path = "readers/samples.rs"]
 mod samples;
+#[path = "readers/untidy.rs"]
+mod untidy;
 #[path = "readers/whole.rs"]
 mod whole;
 #[path = "readers/words.rs"]

@@ -7,6 +7,7 @@ use sha2::{Digest, Sha256};
 use std::collections::HashSet;
 use std::error::Error;
 use verify::judge::outside::{Adjudicated, Hearing};
+use verify::picture::{canvas, panels, zoom};
 use verify::report::{
     Absent, Claim, Counter, Environment, Evidence, Judge, Part, Report, ReportError, SCHEMA_VERSION,
     ScenePictures, SceneReport, SubjectReport, TEXT_WIDTH, TRUTH, html, json, overall, sanitized, text, word,
@@ -432,6 +433,141 @@ fn every_picture_on_the_page_has_words() -> Outcome {
         assert!(alt.len() > 10, "no words for a picture");
     }
     Ok(())
+}
+
+/// The pictures on a page in their order, by their words.
+fn seen(page: &str) -> Result<Vec<(String, image::RgbaImage)>, Box<dyn Error>> {
+    let tag = |tag: &str| -> Result<_, Box<dyn Error>> {
+        let part =
+            |name: &str| tag.split(name).nth(1).and_then(|rest| rest.split('"').next()).unwrap_or_default();
+        let data = part("src=\"").strip_prefix("data:image/png;base64,").ok_or("no PNG")?;
+        Ok((part("alt=\"").to_owned(), image::load_from_memory(&BASE64_STANDARD.decode(data)?)?.to_rgba8()))
+    };
+    page.split("<img ").skip(1).map(tag).collect()
+}
+
+/// What a page shows of a wrong subject is what was promised, what was given and where they differ, in this order and under these names,
+/// whole and magnified; a film's frame shows the truth, what was given and where they differ.
+#[test]
+fn pictures_are_what_their_words_say() -> Outcome {
+    let truth = truth()?;
+    let mut given = truth.clone();
+    (given.ids[122], given.rgba[122]) = (MISS, [1, 250, 3, 255]);
+    let (place, names) = ([58, 1], ["truth", "subject", "difference"]);
+    let (whole, near) = (panels(&truth, &given, Some(place))?, zoom(&truth, &given, place, 21, 16)?);
+    let pictures = || -> Result<_, Box<dyn Error>> {
+        let mut set = ScenePictures::new(&truth)?;
+        set.add((TRUTH, &truth), &given, Some(place))?;
+        Ok(set)
+    };
+    let frame = |number| -> Result<_, Box<dyn Error>> {
+        let scene = scene("bar", vec![subject("one", Verdict::Wrong)])?;
+        Ok(SceneReport { frame: number, frames: 9, outside: Vec::new(), ..scene })
+    };
+    let single = Report { scenes: vec![frame(2)?], ..report()? };
+    let found = seen(&html(&single, &[pictures()?], &[])?)?;
+    let panels: Vec<_> = whole.iter().chain(&near).zip(names.iter().cycle()).collect();
+    assert_eq!(found.len(), 1 + panels.len());
+    for ((words, shown), (made, name)) in found[1..].iter().zip(panels) {
+        assert!(words.contains(&format!("one on bar: {name},")), "{words}: {name} is due");
+        assert!(shown == made, "{words}: other pixels");
+    }
+    assert!(whole[0] != whole[1] && whole[1] != whole[2] && near[0] != near[1], "nothing could be mistaken");
+
+    let film = Report { scenes: vec![frame(2)?, frame(3)?], ..report()? };
+    let found = seen(&html(&film, &[pictures()?, pictures()?], &[])?)?;
+    assert_eq!(found.len(), 6);
+    let made = [&canvas(&truth)?, &whole[1], &whole[2]];
+    for (k, (words, shown)) in found.iter().enumerate() {
+        assert!(shown == made[k % 3], "{words}: other pixels");
+    }
+    Ok(())
+}
+
+/// Cells of the row of a page's table that begins so, by the table's headings.
+fn row(page: &str, begins: &str) -> Result<Vec<(String, String)>, Box<dyn Error>> {
+    let cells = |row: &str| -> Vec<String> {
+        let cell = |part: &str| {
+            let text = part.split_once('>').map_or("", |(_, rest)| rest);
+            let text = text.split("</t").next().unwrap_or_default();
+            text.split('<').map(|part| part.rsplit('>').next().unwrap_or_default()).collect::<String>()
+        };
+        row.split("<t").skip(1).filter(|part| part.starts_with(['h', 'd'])).map(cell).collect()
+    };
+    let table = |table: &&str| {
+        table.split("<tr>").any(|row| cells(row).first().is_some_and(|c| c.starts_with(begins)))
+    };
+    let table = page.split("<table").find(table).ok_or(begins)?;
+    let mut rows = table.split("<tr>").skip(1).map(cells);
+    let headings = rows.next().ok_or("no headings")?;
+    let row = rows.find(|row| row.first().is_some_and(|cell| cell.starts_with(begins))).ok_or(begins)?;
+    Ok(headings.into_iter().zip(row).collect())
+}
+
+/// On the page, too, each number of a comparison and of a hearing stands below its own heading.
+#[test]
+fn numbers_stand_in_their_columns_on_the_page() -> Outcome {
+    let mut report = report()?;
+    let comparison = report.scenes[0].subjects[0].comparison.as_mut().ok_or("compared")?;
+    *comparison = Comparison {
+        wrong_ids: 11,
+        missing: 12,
+        extra: 13,
+        swapped: 14,
+        wrong_t: 15,
+        t_ulp: UlpSummary { count: 9, median: 16, p99: 17, max: 18 },
+        wrong_color: 19,
+        color_max: 20,
+        first_wrong: Some([21, 22]),
+        ..*comparison
+    };
+    report.scenes[0].outside = vec![Hearing {
+        witness: "Somebody".to_owned(),
+        rays: 31,
+        hits: 32,
+        not_stated: [33, 34],
+        in_band: 35,
+        inside: Adjudicated { reference: 36, ties: 37, ..Adjudicated::default() },
+        outside: 38,
+        wrong_t: 39,
+        t_ulp_max: 40,
+        ..Hearing::default()
+    }];
+    let page = html(&report, &pictures(&report)?, &[])?;
+    let due = [
+        ("wrong ids", "11"),
+        ("missing", "12"),
+        ("extra", "13"),
+        ("swapped", "14"),
+        ("wrong t", "15"),
+        ("ulp of t, median", "16"),
+        ("ulp of t, 99\u{a0}%", "17"),
+        ("ulp of t, most", "18"),
+        ("wrong colours", "19"),
+        ("by at most", "20"),
+        ("first wrong", "21, 22"),
+    ];
+    assert_below(&row(&page, &report.scenes[0].subjects[0].name)?, &due);
+    let due = [
+        ("rays", "31"),
+        ("seen by both", "32"),
+        ("not stated", "33"),
+        ("of these different", "34"),
+        ("in the band", "35"),
+        ("decided for the reference", "36"),
+        ("ties", "37"),
+        ("failures", "77"),
+        ("ulp of t, most", "40"),
+    ];
+    assert_below(&row(&page, "Somebody")?, &due);
+    Ok(())
+}
+
+fn assert_below(row: &[(String, String)], due: &[(&str, &str)]) {
+    for (heading, number) in due {
+        let found: Vec<_> = row.iter().filter(|(name, _)| name == heading).map(|(_, cell)| cell).collect();
+        assert_eq!(found, [number], "{heading}: {row:?}");
+    }
 }
 
 /// A run of nothing is no pass, and its page and table stand.

@@ -6,7 +6,7 @@ use rand::RngExt;
 use rayon::prelude::*;
 use reference::{Arithmetic, Ray, Tracer};
 use verify::directed::{KINDS, aimed, case};
-use verify::judge::band::{Band, band, embree_band};
+use verify::judge::band::{Band, Open, band, embree_band};
 use verify::seed::{count, generator, seed};
 use verify::subject::Rounding;
 
@@ -172,7 +172,7 @@ fn t_is_as_wide_as_the_errors_of_its_parts() {
                 let (far, half) = (z.hypot(l), (1.0 - l * l).sqrt());
                 let t = if far > 1.0 { z - half } else { z + half } / n;
                 let [error, lost] = form.error(far, l, z.max(l));
-                let [lo, hi] = found.may_hit.expect("it is hit");
+                let [lo, hi] = found.may_hit.expect("it is hit").ends();
                 let due = form.error_of_t(far, n, half, error, t);
                 assert!(
                     ((hi - lo) / 2.0 / due - 1.0).abs() < 0.02,
@@ -206,24 +206,29 @@ fn what_lies_behind_is_not_hit() {
         let nothing = Band { may_hit: None, must_hit: None };
         assert_eq!([-5.0, -1.01].map(|z| ask(form, z)), [nothing; 2], "{}: behind the eye", form.name);
         for z in [-0.99f32, 0.0, 0.99] {
-            let Band { may_hit: Some([lo, hi]), must_hit: Some(latest) } = ask(form, z) else {
+            let Band { may_hit: Some(open), must_hit: Some(latest) } = ask(form, z) else {
                 panic!("{}: from within, {z}: {:?}", form.name, ask(form, z))
             };
+            let [lo, hi] = open.ends();
             let t = f64::from(z) + 1.0;
             assert!(lo < t && t < hi && hi - lo < 1e-4 && latest >= hi, "{}: from within, {z}", form.name);
         }
-        // On the rim, looking inward: 0 is no hit, and 2 is one; looking outward, a hit so near may be found and need not be.
+        // On the rim, looking inward: 0 is no hit, and 2 is one, and nothing between is either; looking outward, a hit so near may be
+        // found and need not be.
         let inward = ask(form, 1.0);
-        let [lo, hi] = inward.may_hit.expect("something is hit");
+        let open = inward.may_hit.expect("something is hit");
+        let [lo, hi] = open.ends();
         assert!(
             lo < 1e-6 && hi > 2.0 && inward.must_hit.is_some_and(|t| t >= 2.0),
             "{}: {inward:?}",
             form.name
         );
+        let held = [1e-3, 0.5, 1.0, 1.5, 1.999, 2.0].map(|t| open.holds(t));
+        assert_eq!(held, [false, false, false, false, false, true], "{}: {open:?}", form.name);
         let outward = ask(form, -1.0);
         let [error, _] = form.error(1.0, 0.0, 1.0);
         let due = form.error_of_t(1.0, 1.0, 1.0, error, 0.0);
-        let near = outward.may_hit.is_some_and(|[_, hi]| (hi / due - 1.0).abs() < 0.02);
+        let near = outward.may_hit.is_some_and(|open| (open.ends()[1] / due - 1.0).abs() < 0.02);
         assert!(near && outward.must_hit.is_none(), "{}: {outward:?}, {due:e} is due", form.name);
     }
 }
@@ -258,16 +263,17 @@ fn bands_go_with_the_scale() {
                 let bands = [(form.band)(&case.ray, &ball), (form.band)(&ray, &sphere)];
                 let [Some(one), Some(other)] = bands else { continue };
                 // Below this the least f32 counts, which has no scale, or what is not flushed.
-                let ends = |band: Band| band.may_hit.into_iter().flatten().chain(band.must_hit);
+                let ranges = |band: Band| band.may_hit.map_or([None; 2], |Open(ranges)| ranges);
+                let ends = |band: Band| ranges(band).into_iter().flatten().flatten().chain(band.must_hit);
                 if ends(one).chain(ends(other)).any(|t| t != 0.0 && t.abs() < 1e-24) {
                     continue;
                 }
                 stated += 1;
                 let same = |x: f64, y: f64| x * times == y || [x, y].contains(&f64::INFINITY);
-                let alike = match (one.may_hit, other.may_hit) {
+                let alike = ranges(one).into_iter().zip(ranges(other)).all(|roots| match roots {
                     (Some(x), Some(y)) => same(x[0], y[0]) && same(x[1], y[1]),
                     (x, y) => x.is_none() && y.is_none(),
-                } && match (one.must_hit, other.must_hit) {
+                }) && match (one.must_hit, other.must_hit) {
                     (Some(x), Some(y)) => same(x, y),
                     (x, y) => x.is_none() && y.is_none(),
                 };
@@ -360,7 +366,7 @@ fn embrees_band_holds_that_of_the_perpendicular_form() {
                 [embree_band(&case.ray, &sphere), band(Rounding::PerpendicularF32, &case.ray, &sphere)];
             let [Some(embree), Some(naive)] = bands else { return [0; 2] };
             let what = || format!("{embree:?}, {naive:?}; case {i} of CGT_SEED={seed}: {case:?}");
-            match (embree.may_hit, naive.may_hit) {
+            match (embree.may_hit.map(|open| open.ends()), naive.may_hit.map(|open| open.ends())) {
                 (Some([lo, hi]), Some([from, to])) => {
                     assert!(lo <= from.max(f64::from(f32::MIN_POSITIVE)) && hi >= to, "{}", what());
                 }
@@ -398,7 +404,7 @@ fn what_f64_gets_wrong_lies_in_its_band() {
                 [Arithmetic::F64, Arithmetic::Exact].map(|form| Tracer::new(form).trace(&case.ray, &scene));
             let holds = match (answer, band.may_hit) {
                 (None, _) => band.must_hit.is_none(),
-                (Some(hit), Some([lo, hi])) => (lo..=hi).contains(&f64::from(hit.t)),
+                (Some(hit), Some(open)) => open.holds(hit.t),
                 (Some(_), None) => false,
             };
             assert!(holds, "f64 answers {answer:?}, {band:?}; case {i} of CGT_SEED={seed}: {case:?}");

@@ -15,10 +15,11 @@ use optimized::plan::{
     Arithmetic, Cells, Culling, Loop, Margins, OnEvent, Packet, Plan, Resolution, Sharing, Voxelizer,
 };
 use optimized::seen::{Counts, Seen};
-use optimized::{Events, Form, Known, Level, RenderError, Tracer, cull, double, frustum, tile};
+use optimized::{Event, Events, Form, Known, Level, RenderError, Tracer, cull, double, frustum, tile};
 use rand::{Rng, RngExt};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 use verify::case::Case;
 use verify::seed::{generator, seed};
@@ -1004,6 +1005,68 @@ fn the_papers_plan_is_the_paper() {
     assert_eq!(Plan::paper().to_string(), words);
 }
 
+/// So are the numbers of the other two what was measured to be fast.
+#[test]
+fn plans_have_the_numbers_that_were_measured() {
+    let safe = "box range into lists, 4x4 blocks, flattened loop, four planes, derived margins, perpendicular f32, up to 32 cells on an \
+                axis, falls back, one grid";
+    let fast = "by centre into lists, tiles of 32x32 blocks, nested loops, four planes, derived margins, certified exact, up to 240 cells \
+                on an axis, falls back, one grid";
+    assert_eq!([Plan::safe().to_string(), Plan::fast().to_string()], [safe, fast]);
+}
+
+/// Events and errors name the place and the values, each where it belongs.
+#[test]
+fn errors_are_said_with_their_numbers() {
+    let events = [
+        (
+            Event::CellFull { cell: [3, 5, 7], pushed: 11, lost: 13 },
+            "cell [3, 5, 7] is full: sphere 11 pushed out sphere 13; a queue holds 16",
+        ),
+        (
+            Event::SpansCells { sphere: 17, axis: 2, cells: 5 },
+            "sphere 17 spans 5 cells on axis 2; eight corners reach two",
+        ),
+        (Event::TooManyIds { spheres: 70_000 }, "70000 spheres; ids of 2 bytes number at most 65535"),
+        (Event::OutOfRange, "the scene is out of the range for which margins are derived"),
+    ];
+    let mut errors: Vec<(RenderError, String)> = Vec::new();
+    for (event, words) in events {
+        assert_eq!(event.to_string(), words);
+        errors.push((RenderError::Refused(event), format!("refused by the plan: {words}")));
+    }
+    let size = |width, height| Size::new(width, height).expect("small");
+    let none = Size::new(0, 3).expect_err("no pixels");
+    let plan = Plan::safe();
+    let tiles = format!(
+        "tiles need spheres listed once, by centre in lists, certified arithmetic, derived margins, and 1 to 64 blocks on a side; the plan \
+         is: {plan}"
+    );
+    errors.extend([
+        (RenderError::Size(none), none.to_string()),
+        (
+            RenderError::Workers { workers: 19, cause: "no room".to_owned() },
+            "no threads for 19 workers: no room".to_owned(),
+        ),
+        (
+            RenderError::Resolution { cells: 241 },
+            "a grid of 241 cells on an axis; it must be from 1 to 240".to_owned(),
+        ),
+        (RenderError::Tile { plan }, tiles),
+        (
+            RenderError::KnownId { id: 29, spheres: 23 },
+            "what is known names sphere 29, the scene has 23".to_owned(),
+        ),
+        (
+            RenderError::Known { known: size(31, 37), asked: size(41, 43) },
+            "what is known belongs to a picture of 31x37, that asked for has 41x43".to_owned(),
+        ),
+    ]);
+    for (error, words) in errors {
+        assert_eq!(error.to_string(), words, "{error:?}");
+    }
+}
+
 /// Plans that promise the naive picture, and words in which no two plans are alike.
 #[test]
 fn plans_promise_and_say_what_they_are() {
@@ -1058,6 +1121,34 @@ fn a_crew_has_its_size() {
         assert_eq!(Crew::new(asked).expect("threads").size(), size);
     }
     assert_eq!(Crew::alone().size(), 1);
+}
+
+/// As many tasks as there are workers wait until all are begun, which they are only if each worker, a thread of its own, has one; asked for by
+/// a worker of somebody else's pool too. Who waits in vain gives up after a time in which any thread gets to run.
+#[test]
+fn all_workers_of_a_crew_are_at_work() {
+    for size in [1, 2, 3, 8] {
+        let crew = Crew::new(size).expect("threads");
+        let meet = || {
+            let (begun, patience) = (AtomicUsize::new(0), Duration::from_secs(20));
+            let met = crew.share(0..size, |next| {
+                let mut tasks = 0;
+                while next().is_some() {
+                    tasks += 1;
+                    begun.fetch_add(1, Ordering::SeqCst);
+                    let start = Instant::now();
+                    while begun.load(Ordering::SeqCst) < size && start.elapsed() < patience {
+                        std::thread::yield_now();
+                    }
+                }
+                (tasks, std::thread::current().id())
+            });
+            let threads: HashSet<_> = met.iter().map(|(_, thread)| *thread).collect();
+            (met.iter().map(|(tasks, _)| *tasks).collect::<Vec<u32>>(), threads.len())
+        };
+        assert_eq!(meet(), (vec![1; size], size), "tasks of each worker, threads");
+        assert_eq!(rayon::join(meet, || ()).0, (vec![1; size], size), "within another pool");
+    }
 }
 
 /// The variable that says that the test below is run with little memory.

@@ -27,6 +27,11 @@ pub const MAX_CELLS: usize = 240;
 /// Cells a sphere should have for itself: λ of n = d ∛(λ N / V) (Wald et al. 2006 use 3 to 5).
 const DENSITY: f64 = 4.0;
 
+/// Ids in lists to a sphere, and to a grid beside, above which a grid that may choose is made coarser: where spheres are as large as
+/// the grid, every cell lists nearly all of them, and memory would go with their square.
+const LISTED: u64 = 512;
+const LISTED_BESIDE: u64 = 1 << 22;
+
 /// The same for tiles, whose cells are to hold about a row of lanes: measured, see [`crate::tile`].
 const TILE_DENSITY: f64 = 1.0 / 32.0;
 
@@ -359,7 +364,8 @@ fn fill_queues<M: Machine>(
     Ok(queues)
 }
 
-/// Count, then write. `None` if there are more entries than u32 can number or memory can hold: a coarser grid is needed.
+/// Count, then write. `None` if there are more entries than u32 can number, than memory can hold or, where the plan lets a grid choose
+/// its cells, than [`LISTED`] says: a coarser grid is needed.
 fn fill_lists<M: Machine>(
     m: M,
     plan: &Plan,
@@ -368,11 +374,22 @@ fn fill_lists<M: Machine>(
     boxes: &[CellBox],
 ) -> Option<Storage> {
     let strides = strides(axes);
+    // One cell lists each sphere once, which takes less than the scene itself.
+    let is_coarsest = cells(axes) == 1;
+    let most = match plan.resolution {
+        Resolution::UpTo(_) if !is_coarsest => LISTED * balls.len() as u64 + LISTED_BESIDE,
+        Resolution::UpTo(_) | Resolution::Fixed(_) => u64::MAX,
+    };
     let mut counts = m.beside(Chore::Clear(cells(axes).div_ceil(4)), || vec![0u64; cells(axes)]);
+    let mut listed = 0u64;
     for (cells, ball) in boxes.iter().zip(balls) {
         cells.for_each(plan.voxelizer, axes, ball, |cell| {
             m.beside(Chore::Entry, || counts[index(strides, cell)] += 1);
+            listed += 1;
         });
+        if listed > most {
+            return None;
+        }
     }
     let mut offsets = Vec::with_capacity(counts.len() + 1);
     let mut entries = 0u64;
@@ -382,10 +399,11 @@ fn fill_lists<M: Machine>(
     }
     offsets.push(u32::try_from(entries).ok()?);
     let mut next = offsets.clone();
-    // Where addresses have 32 bits, fewer fit than u32 can number. In one cell all spheres of a scene do.
-    let bytes = entries.checked_mul(size_of::<u32>() as u64)?;
-    isize::try_from(bytes).ok()?;
-    let mut ids = vec![0u32; usize::try_from(entries).ok()?];
+    let (entries, mut ids) = (usize::try_from(entries).ok()?, Vec::<u32>::new());
+    if ids.try_reserve_exact(entries).is_err() && !is_coarsest {
+        return None;
+    }
+    ids.resize(entries, 0);
     for ((id, cells), ball) in (0..).zip(boxes).zip(balls) {
         cells.for_each(plan.voxelizer, axes, ball, |cell| {
             m.beside(Chore::Entry, || {

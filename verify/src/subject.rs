@@ -231,6 +231,8 @@ pub struct Grid {
     description: String,
     plan: Plan,
     level: Level,
+    /// What asks for it on a command line.
+    option: String,
 }
 
 impl Grid {
@@ -240,14 +242,19 @@ impl Grid {
     pub fn new(plan: NamedPlan, level: Level, several: bool, cells: Option<u8>) -> Self {
         let name = if several { format!("{}@{level}", plan.name()) } else { plan.name().to_owned() };
         let chosen = plan.plan();
+        let mut option = format!("--plan {} --level {level}", plan.name());
+        if let Some(cells) = cells {
+            option += &format!(" --grid {cells}");
+        }
         let plan = Plan { resolution: cells.map_or(chosen.resolution, Resolution::Fixed), ..chosen };
-        Self::of(plan, level, name)
+        Self { option, ..Self::of(plan, level, name) }
     }
 
     /// The tracer of any plan, under a name of the caller's.
     #[must_use]
     pub fn of(plan: Plan, level: Level, name: String) -> Self {
         Self {
+            option: format!("--subject {name}"),
             name,
             description: format!("packets of 4x4 rays through a grid rebuilt for the frame: {plan}"),
             plan,
@@ -289,6 +296,10 @@ impl Subject for Grid {
             notes.push(stages(&counts));
         }
         Ok(Rendered { image: rendering.image, notes, took: None })
+    }
+
+    fn option(&self) -> String {
+        self.option.clone()
     }
 
     fn asked(&self, threads: usize) -> Option<Asked> {

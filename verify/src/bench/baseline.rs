@@ -6,7 +6,7 @@
 //! second. The ratio to the limit is no measure: it falls behind when the kernel gets faster. Refused: a file of another shape or
 //! machine, and one that has no scene of this run.
 
-use super::data::{Bench, SCHEMA_VERSION, SceneBench};
+use super::data::{Bench, Held, SCHEMA_VERSION, SceneBench};
 use crate::report::words::figure;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -106,11 +106,11 @@ impl Step {
     }
 }
 
-/// Holds a run against an earlier one.
+/// Holds a run against an earlier one; a scene may be slower by so much of its speed.
 ///
 /// # Errors
 /// [`BaselineError`] if they cannot be compared.
-pub fn compare(text: &str, bench: &Bench) -> Result<Vec<Step>, BaselineError> {
+pub fn compare(text: &str, bench: &Bench, tolerance: f64) -> Result<Held, BaselineError> {
     let earlier: Earlier = serde_json::from_str(text)?;
     if earlier.schema_version != SCHEMA_VERSION {
         return Err(BaselineError::Schema { found: earlier.schema_version });
@@ -126,9 +126,14 @@ pub fn compare(text: &str, bench: &Bench) -> Result<Vec<Step>, BaselineError> {
             return Err(BaselineError::Other { what, theirs, ours });
         }
     }
-    let step = |now: &SceneBench| earlier.scenes.iter().find_map(|before| before.step(now));
-    let steps: Vec<Step> = bench.scenes.iter().filter_map(step).collect();
-    if steps.is_empty() { Err(BaselineError::Nothing) } else { Ok(steps) }
+    let (mut steps, mut missing) = (Vec::new(), Vec::new());
+    for now in &bench.scenes {
+        match earlier.scenes.iter().find_map(|before| before.step(now)) {
+            Some(step) => steps.push(step),
+            None => missing.push(now.name.clone()),
+        }
+    }
+    if steps.is_empty() { Err(BaselineError::Nothing) } else { Ok(Held { tolerance, steps, missing }) }
 }
 
 impl Before {

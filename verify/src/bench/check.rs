@@ -10,6 +10,7 @@
 //! [`ALLOWED`] may go without a statement, or its picture was not checked, and it is not timed.
 
 use super::contestant::{Kind, Layers, Oath};
+use crate::judge::band::{Band, Open};
 use crate::judge::outside::Stand;
 use crate::judge::painted;
 use crate::verdict::Verdict;
@@ -120,17 +121,17 @@ fn differs(truth: &Image, layers: Layers<'_>, i: usize) -> bool {
 fn explained(
     scene: &Scene,
     ray: &Ray,
-    band: fn(&Ray, &contract::Sphere) -> Option<crate::judge::band::Band>,
+    band: fn(&Ray, &contract::Sphere) -> Option<Band>,
     differs: bool,
     answer: Hit,
 ) -> Option<bool> {
     let Hit { id, t } = answer;
-    let within = |range: Option<[f64; 2]>| range.is_some_and(|[lo, hi]| (lo..=hi).contains(&f64::from(t)));
+    let within = |open: Option<Open>| open.is_some_and(|open| open.holds(t));
     if !differs && id == MISS {
         return Some(t == f32::INFINITY);
     }
     if differs {
-        return Stand::new(ray, scene.spheres(), band).map(|stand| within(stand.range(id)));
+        return Stand::new(ray, scene.spheres(), band).map(|stand| within(stand.open(id)));
     }
     let sphere = scene.spheres().get(id as usize)?;
     band(ray, sphere).map(|band| within(band.may_hit))

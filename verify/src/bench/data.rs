@@ -46,6 +46,8 @@ pub struct Held {
     pub tolerance: f64,
     /// Scene by scene.
     pub steps: Vec<Step>,
+    /// Scenes of this run that the earlier one has not, or not at the same size, frame and threads.
+    pub missing: Vec<String>,
 }
 
 impl Held {

@@ -132,6 +132,12 @@ pub fn sentences(bench: &Bench) -> Vec<String> {
     said.extend(bench.curves.iter().flat_map(|curve: &Curve| curve.growth.iter().map(growth)));
     if let Some(held) = &bench.baseline {
         said.extend(held.steps.iter().map(|step| step.sentence(held.tolerance)));
+        let missing = |scene: &String| {
+            format!(
+                "baseline, {scene}: not compared. It was not timed then, or not at this size, frame and threads."
+            )
+        };
+        said.extend(held.missing.iter().map(missing));
     }
     said.extend(bench.absent.iter().map(|absent| format!("{}: not timed. {}", absent.judge, absent.why)));
     said

@@ -96,6 +96,14 @@ pub enum PlanError {
         /// The property.
         word: &'static str,
     },
+    /// The same frames stand there twice for the same tracer, and would count twice.
+    #[error("film of `{scene}`: `{subject}` is to be judged twice on a frame")]
+    Again {
+        /// The film's scene.
+        scene: String,
+        /// Who.
+        subject: String,
+    },
     /// No case is drawn.
     #[error("it draws no case of `{word}`")]
     NoCase {
@@ -150,6 +158,12 @@ impl Film {
         let range: Range<usize> =
             ends.ok_or_else(|| self.wrong(format!("`{}` is no range A..B", self.frames)))?;
         if range.is_empty() { Err(self.wrong(format!("`{}` has no frame", self.frames))) } else { Ok(range) }
+    }
+
+    /// Whether two have a frame in common, of one size.
+    fn overlaps(&self, other: &Self) -> bool {
+        let [Ok(one), Ok(two)] = [self.range(), other.range()] else { return false };
+        (&self.scene, &self.size) == (&other.scene, &other.size) && one.start < two.end && two.start < one.end
     }
 
     /// Columns and rows of its pictures.
@@ -226,10 +240,16 @@ impl Plan {
             }
         }
         let mut units: u128 = plan.draw.iter().map(|draw| u128::from(draw.units())).sum();
-        for film in &plan.film {
+        for (i, film) in plan.film.iter().enumerate() {
             units += film.range()?.len() as u128;
             film.size()?;
             film.subjects(Level::SCALAR)?;
+            for (k, subject) in film.subjects.iter().enumerate() {
+                let again = |other: &Film| other.overlaps(film) && other.subjects.contains(subject);
+                if film.subjects[..k].contains(subject) || plan.film[..i].iter().any(again) {
+                    return Err(PlanError::Again { scene: film.scene.clone(), subject: subject.clone() });
+                }
+            }
         }
         if units > u128::from(MOST_UNITS) { Err(PlanError::TooMuch { units }) } else { Ok(plan) }
     }

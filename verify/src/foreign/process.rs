@@ -73,12 +73,16 @@ impl Process {
     pub(super) fn ask(&mut self, [first, last]: [Vec<u8>; 2], length: usize) -> Result<Answer, ForeignError> {
         self.nothing_more()?;
         self.send(first);
-        self.said(READ, "once it had read its rays")?;
+        // Whoever says that it is done before it is told to go would stop a clock that has not begun.
+        self.said(READ, "once it had read its rays").and_then(|()| self.nothing_more())?;
         let start = Instant::now();
         self.send(last);
         self.said(DONE, "once it had traced them")?;
         let took = start.elapsed();
-        Ok(Answer { bytes: self.take(length, "as its answers")?, took })
+        // What comes later is found at the next question.
+        let bytes =
+            self.take(length, "as its answers").and_then(|bytes| self.nothing_more().map(|()| bytes))?;
+        Ok(Answer { bytes, took })
     }
 
     fn send(&self, bytes: Vec<u8>) {

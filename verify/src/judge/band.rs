@@ -33,10 +33,42 @@ use reference::Ray;
 /// What rounding can make of a ray and a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
-    /// Calling it a hit can be explained, with t from the first to the second.
-    pub may_hit: Option<[f64; 2]>,
+    /// Calling it a hit can be explained, with these t.
+    pub may_hit: Option<Open>,
     /// Calling it a miss cannot be explained, nor can a hit on something behind this t.
     pub must_hit: Option<f64>,
+}
+
+/// The t of a hit that can be explained: from the first to the second of the near root, of the far root where the near one may
+/// not count, or of either. What lies between two roots is the t of none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Open(pub [Option<[f64; 2]>; 2]);
+
+impl Open {
+    /// Whether it is one of them.
+    #[must_use]
+    pub fn holds(&self, t: f32) -> bool {
+        self.0.iter().flatten().any(|[lo, hi]| (*lo..=*hi).contains(&f64::from(t)))
+    }
+
+    /// The least and the largest of them.
+    #[must_use]
+    pub fn ends(&self) -> [f64; 2] {
+        let fold = |one: [f64; 2], other: &[f64; 2]| [one[0].min(other[0]), one[1].max(other[1])];
+        self.0.iter().flatten().fold([f64::INFINITY, f64::NEG_INFINITY], fold)
+    }
+
+    /// Those up to `latest`, if there are any.
+    #[must_use]
+    pub fn until(self, latest: f64) -> Option<Self> {
+        Self::of(self.0.map(|range| range.map(|[lo, hi]| [lo, hi.min(latest)])))
+    }
+
+    /// Ranges that are not empty, if there are any.
+    fn of(ranges: [Option<[f64; 2]>; 2]) -> Option<Self> {
+        let ranges = ranges.map(|range| range.filter(|[lo, hi]| lo <= hi));
+        ranges.iter().any(Option::is_some).then_some(Self(ranges))
+    }
 }
 
 /// The band of a ray and a sphere; `None` if the form's bound states nothing for them.
@@ -207,20 +239,19 @@ fn banded(discriminant: f64, error: f64, search: Search, roots: impl Fn(f64) -> 
     // Boxes are crossed at t (1 + 3u) at most where something is lost.
     let delay = if lost > 0.0 { 1.0 + 4.0 * U } else { 1.0 };
     let (latest, _) = reachable([near, far], floor);
-    Band { may_hit, must_hit: latest.filter(|_| certain).map(|[_, hi]| hi * delay) }
+    Band { may_hit, must_hit: latest.filter(|_| certain).map(|open| open.ends()[1] * delay) }
 }
 
-/// From where to where a t above 0, and not below `floor`, can lie, and whether it can be that of the far root.
-fn reachable([near, far]: [Span; 2], floor: f64) -> (Option<[f64; 2]>, bool) {
+/// Where a t above 0, and not below `floor`, can lie, and whether it can be that of the far root.
+fn reachable([near, far]: [Span; 2], floor: f64) -> (Option<Open>, bool) {
     let takes_far = near.lo <= 0.0;
-    let mut t: Option<[f64; 2]> = None;
-    for root in [Some(near), takes_far.then_some(far)].into_iter().flatten().filter(|root| root.hi > 0.0) {
-        let [lo, hi] = t.unwrap_or([root.lo, root.hi]);
+    let ranges = [Some(near), takes_far.then_some(far)].map(|root| {
+        let Span { lo, hi } = root.filter(|root| root.hi > 0.0)?;
         // What rounds to more than the largest f32 is an infinite t.
-        let top = if root.hi > f64::from(f32::MAX) { f64::INFINITY } else { root.hi };
-        t = Some([lo.min(root.lo).max(floor), hi.max(top)]);
-    }
-    (t, takes_far)
+        let top = if hi > f64::from(f32::MAX) { f64::INFINITY } else { hi };
+        Some([lo.max(floor), top])
+    });
+    (Open::of(ranges), takes_far)
 }
 
 #[derive(Clone, Copy)]

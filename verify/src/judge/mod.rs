@@ -166,9 +166,7 @@ fn explains(
     if id != MISS {
         let Some(sphere) = scene.spheres().get(id as usize) else { return Some(false) };
         match band(rounding, ray, sphere) {
-            Some(own) if !own.may_hit.is_some_and(|[lo, hi]| (lo..=hi).contains(&f64::from(t))) => {
-                return Some(false);
-            }
+            Some(own) if !own.may_hit.is_some_and(|open| open.holds(t)) => return Some(false),
             own => {
                 stated = own.is_some();
             }

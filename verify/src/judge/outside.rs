@@ -9,7 +9,7 @@
 //!
 //! In: scene, camera, the reference's exact picture, the witness. Out: a [`Hearing`] for each way it was asked.
 
-use super::band::Band;
+use super::band::{Band, Open};
 use super::compare::ulps_apart;
 use crate::subject::SubjectError;
 use crate::verdict::Verdict;
@@ -136,8 +136,8 @@ impl Hearing {
 pub struct Stand {
     /// A miss is.
     pub miss: bool,
-    /// These spheres are, each with t from the first to the second.
-    pub spheres: Vec<(u32, [f64; 2])>,
+    /// These spheres are, each with these t; none lies behind what is certainly hit.
+    pub spheres: Vec<(u32, Open)>,
 }
 
 impl Stand {
@@ -146,15 +146,13 @@ impl Stand {
         let (mut open, mut latest) = (Vec::new(), f64::INFINITY);
         for (id, sphere) in (0..).zip(spheres) {
             let band = band(ray, sphere)?;
-            if let Some([lo, hi]) = band.may_hit
-                && lo <= latest
-            {
-                open.push((id, [lo, hi]));
+            if let Some(own) = band.may_hit.and_then(|own| own.until(latest)) {
+                open.push((id, own));
                 latest = band.must_hit.map_or(latest, |hi| latest.min(hi));
             }
         }
-        open.retain(|&(_, [lo, _])| lo <= latest);
-        Some(Self { miss: latest == f64::INFINITY, spheres: open })
+        let spheres = open.into_iter().filter_map(|(id, own)| Some((id, own.until(latest)?))).collect();
+        Some(Self { miss: latest == f64::INFINITY, spheres })
     }
 
     /// Whether one answer alone is open.
@@ -163,12 +161,12 @@ impl Stand {
         usize::from(self.miss) + self.spheres.len() == 1
     }
 
-    /// The range of t in which an answer is open, if it is; of a miss, infinity alone.
+    /// The t for which an answer is open, if it is; of a miss, infinity alone.
     #[must_use]
-    pub fn range(&self, id: u32) -> Option<[f64; 2]> {
+    pub fn open(&self, id: u32) -> Option<Open> {
         match id {
-            MISS => self.miss.then_some([f64::INFINITY; 2]),
-            id => self.spheres.iter().find(|(open, _)| *open == id).map(|(_, range)| *range),
+            MISS => self.miss.then_some(Open([Some([f64::INFINITY; 2]), None])),
+            id => self.spheres.iter().find(|(open, _)| *open == id).map(|(_, t)| *t),
         }
     }
 }
@@ -243,14 +241,13 @@ impl Hearing {
         };
         self.hits += u64::from(reference != MISS && witness != MISS);
         self.in_band += u64::from(!stand.is_decided());
-        let open = [reference, witness].map(|id| stand.range(id));
+        let open = [reference, witness].map(|id| stand.open(id));
         if open.contains(&None) {
             let kind = if stand.is_decided() { &mut self.outside } else { &mut self.beyond };
             *kind += 1;
             return Some(if open[0].is_none() { "the reference's id" } else { "the witness's id" });
         }
-        let within =
-            |range: Option<[f64; 2]>, t: f32| range.is_some_and(|[lo, hi]| (lo..=hi).contains(&f64::from(t)));
+        let within = |open: Option<Open>, t: f32| open.is_some_and(|open| open.holds(t));
         // What lies below the least normal number the reference may give, though no witness that flushes it can.
         if !within(open[0], exact.max(f32::MIN_POSITIVE)) || !within(open[1], t) {
             self.wrong_t += 1;

@@ -1,7 +1,9 @@
 //! Writes a file whole or not at all: the bytes go to a temporary file in the same folder, which then takes the
 //! file's name. A path and bytes come in; what fails is named with the path and the cause, and then the file
-//! that was there before is still there and the temporary one is gone.
+//! that was there before is still there and the temporary one is gone. Of a link the file that it leads to is written; what is
+//! no file (a pipe, a device) is written to as it is; permissions stay as they were.
 
+use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
@@ -71,27 +73,47 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
 #[derive(Debug)]
 pub struct AtomicFile {
     path: PathBuf,
-    file: NamedTempFile,
+    file: Sink,
     bytes: usize,
     /// The first failure, which [`AtomicFile::finish`] tells: an encoder between may have dressed it up.
     failed: Option<std::io::Error>,
+}
+
+/// Where bytes go.
+#[derive(Debug)]
+enum Sink {
+    /// A temporary file, and the place that it is to take.
+    Beside(NamedTempFile, PathBuf),
+    /// What is no file and cannot be replaced by one.
+    Straight(File),
 }
 
 impl AtomicFile {
     /// Begins one.
     ///
     /// # Errors
-    /// [`WriteError::NoName`] and [`WriteError::Folder`].
+    /// [`WriteError::NoName`], [`WriteError::Folder`] and, for what is no file, [`WriteError::Place`].
     pub fn new(path: &Path) -> Result<Self, WriteError> {
         let at = || path.to_path_buf();
         if path.file_name().is_none() {
             return Err(WriteError::NoName { path: at() });
         }
+        let there = std::fs::metadata(path).ok();
+        if there.as_ref().is_some_and(|there| !there.is_file() && !there.is_dir()) {
+            let file = File::options().write(true).open(path);
+            let file = file.map_err(|cause| WriteError::Place { path: at(), cause })?;
+            return Ok(Self { path: at(), file: Sink::Straight(file), bytes: 0, failed: None });
+        }
+        let place = if path.is_symlink() { path.canonicalize().unwrap_or_else(|_| at()) } else { at() };
         // The parent of a bare name is the empty path, which means the current folder but cannot be opened.
-        let folder = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = place.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let file =
             temporary(folder).map_err(|cause| WriteError::Folder { path: at(), cause: bare(cause) })?;
-        Ok(Self { path: at(), file, bytes: 0, failed: None })
+        if let Some(there) = there.filter(std::fs::Metadata::is_file) {
+            let kept = file.as_file().set_permissions(there.permissions());
+            kept.map_err(|cause| WriteError::Place { path: at(), cause })?;
+        }
+        Ok(Self { path: at(), file: Sink::Beside(file, place), bytes: 0, failed: None })
     }
 
     /// Whether a write has failed, which [`AtomicFile::finish`] tells with the file's name.
@@ -106,11 +128,14 @@ impl AtomicFile {
     /// [`WriteError::Bytes`] if any write failed or the bytes do not reach the disk, [`WriteError::Place`].
     pub fn finish(self) -> Result<(), WriteError> {
         let Self { path, file, bytes, failed } = self;
+        if let Some(cause) = failed {
+            return Err(WriteError::Bytes { path, bytes, cause });
+        }
+        let Sink::Beside(file, place) = file else { return Ok(()) };
         // Some file systems tell of a full disk only when the bytes must reach it.
-        let written = failed.map_or_else(|| file.as_file().sync_all(), Err);
-        match written {
+        match file.as_file().sync_all() {
             Err(cause) => Err(WriteError::Bytes { path, bytes, cause }),
-            Ok(()) => match file.persist(&path) {
+            Ok(()) => match file.persist(place) {
                 Ok(_) => Ok(()),
                 Err(failed) => Err(WriteError::Place { path, cause: failed.error }),
             },
@@ -125,7 +150,7 @@ impl Write for AtomicFile {
 
     fn write_all(&mut self, bytes: &[u8]) -> std::io::Result<()> {
         self.bytes += bytes.len();
-        self.file.write_all(bytes).map_err(|error| {
+        self.file.get().write_all(bytes).map_err(|error| {
             let told = std::io::Error::new(error.kind(), error.to_string());
             self.failed.get_or_insert(error);
             told
@@ -133,7 +158,16 @@ impl Write for AtomicFile {
     }
 
     fn flush(&mut self) -> std::io::Result<()> {
-        self.file.flush()
+        self.file.get().flush()
+    }
+}
+
+impl Sink {
+    fn get(&mut self) -> &mut File {
+        match self {
+            Self::Beside(file, _) => file.as_file_mut(),
+            Self::Straight(file) => file,
+        }
     }
 }
 

@@ -4,8 +4,8 @@
 //!
 //! Radii in Ångström: A. Bondi, "van der Waals Volumes and Radii", J. Phys. Chem. 68 (1964) 441; where Bondi
 //! gives none, S. Alvarez, "A cartography of the van der Waals territories", Dalton Trans. 42 (2013) 8617.
-//! Colours follow the habit of Corey, Pauling and Koltun's models, lightened where black or pure blue would
-//! hide the shading.
+//! Colours are those of Jmol's list, which follow the habit of Corey, Pauling and Koltun's models, softened where dark or
+//! glaring ones would hide the shading.
 
 use contract::Rgb;
 

@@ -4,7 +4,8 @@
 //! a sphere.
 //!
 //! Colours are clamped to 0 to 1. Our light is a direction: from the origin towards the first light. `v` becomes a
-//! [`Framing`]; its angle is that of the picture's height.
+//! [`Framing`]; its angle is that of the picture's height. A light of another colour than white is drawn white, and what shines or
+//! lets light through is drawn matte, each with a warning.
 
 use super::frames::{Frames, Input};
 use super::text::{Line, Lines, NUMBER, Word};
@@ -21,6 +22,8 @@ struct State {
     vertices: u64,
     /// What the line before began as, if it was a viewpoint.
     in_view: bool,
+    /// The first line of a fill colour that is not matte.
+    not_matte: Option<usize>,
 }
 
 pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
@@ -33,12 +36,16 @@ pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
         spheres: Vec::new(),
         vertices: 0,
         in_view: false,
+        not_matte: None,
     };
     for line in Lines::new(file, "NFF", bytes)? {
         read_line(line, &mut state, &mut frames)?;
     }
     if state.vertices > 0 {
         frames.warn(None, format!("the file ends {} vertices before its last polygon does", state.vertices));
+    }
+    if let Some(line) = state.not_matte {
+        frames.warn(Some(line), "a reflectance passed over, the first: all is drawn matte");
     }
     frames.light = state.light.unwrap_or(frames.light);
     if !state.spheres.is_empty() {
@@ -70,7 +77,12 @@ fn read_line(line: Line<'_>, state: &mut State, frames: &mut Frames<'_>) -> Resu
             state.view = Some(Framing::default());
         }
         b"l" => light(line, &mut words, state, frames)?,
-        b"f" => state.color = color(line, &mut words)?,
+        b"f" => {
+            state.color = color(line, &mut words)?;
+            if !is_matte(words) {
+                state.not_matte.get_or_insert(line.number);
+            }
+        }
         b"s" => {
             let center = line.vector(&mut words, ["x", "y", "z"])?;
             let radius = line.take(&mut words, "radius", NUMBER)?.radius("radius")?;
@@ -128,6 +140,12 @@ fn color<'a>(line: Line<'a>, words: &mut impl Iterator<Item = Word<'a>>) -> Resu
     Ok(parts.map(|part| (part.clamp(0.0, 1.0) * 255.0 + 0.5) as u8))
 }
 
+/// Whether Kd, Ks, shine and T, where they follow a colour, are those of what is drawn.
+fn is_matte<'a>(words: impl Iterator<Item = Word<'a>>) -> bool {
+    let matte = [Some(1.0), Some(0.0), None, Some(0.0)];
+    words.zip(matte).all(|(word, want)| want.is_none() || word.number("reflectance").ok() == want)
+}
+
 /// Keeps the first light's direction, of length 1; a light at the origin has none.
 fn light<'a>(
     line: Line<'a>,
@@ -141,6 +159,9 @@ fn light<'a>(
         let why = if length == 0.0 { "stands at the origin" } else { "is not the first" };
         frames.warn(Some(line.number), format!("light passed over: it {why}"));
         return Ok(());
+    }
+    if words.any(|word| word.number("color").ok() != Some(1.0)) {
+        frames.warn(Some(line.number), "the light's colour passed over: it is drawn white");
     }
     state.light = Some([x, y, z].map(|part| (part / length) as f32));
     Ok(())

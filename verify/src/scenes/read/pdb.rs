@@ -2,9 +2,10 @@
 //! Ångström, each `MODEL` a frame; hydrogens, water and ligands are kept. Refused are atoms without three finite
 //! coordinates in columns 31 to 54 and files without atoms.
 //!
-//! Short lines, CR LF, other records and what follows column 54 are no trouble. Where an atom has alternate
-//! locations (column 17), the first letter that occurs for that atom of that residue is kept and the others are left
-//! out, since they are places the atom is in at other times; a warning counts them.
+//! Short lines, CR LF, other records and what follows column 54 are no trouble, nor are serial numbers above 99,999,
+//! which begin in column 6 or 5. Where an atom has alternate locations (column 17), the first letter that occurs for
+//! that atom of that residue is kept and the others are left out, since they are places the atom is in at other times;
+//! a warning counts them. Where the alternates of a place are residues of several names, only the first is kept.
 
 use super::frames::{Frames, Input};
 use super::text::{Line, Lines, NUMBER};
@@ -15,11 +16,15 @@ use std::collections::HashMap;
 
 /// Chain, residue number, insertion code and name of an atom: columns 13-16 and 22-27.
 type AtomKey = [u8; 10];
+/// Chain, residue number and insertion code: columns 22-27.
+type ResidueKey = [u8; 6];
 
 #[derive(Default)]
 struct Model {
     spheres: Vec<Sphere>,
     first_location: HashMap<AtomKey, u8>,
+    /// Columns 18-21 of the first atom with alternates.
+    first_name: HashMap<ResidueKey, [u8; 4]>,
     open: bool,
 }
 
@@ -36,9 +41,9 @@ pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
     let (mut model, mut tally) = (Model::default(), Tally::default());
     let mut lines = Lines::new(file, "PDB", bytes)?;
     while let Some(line) = lines.next() {
-        match line.columns(1, 6).text {
-            b"ATOM" | b"HETATM" => match sphere(line, &mut model, &mut tally) {
-                // Beside it, at most, stands where its first location was.
+        match record(line) {
+            b"ATOM" | b"HETATM" | b"HETAT" | b"HETA" => match sphere(line, &mut model, &frames, &mut tally) {
+                // Beside it, at most, stand its first location and its residue's first name.
                 Ok(Some(sphere)) => frames.put(&mut model.spheres, sphere, 1)?,
                 Ok(None) => {}
                 Err(error) if lines.cut_by(&error) && frames.len() > 0 => {
@@ -74,6 +79,13 @@ pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
     frames.finish(Format::Pdb, "no ATOM or HETATM record")
 }
 
+/// What a line is: columns 1 to 6 without the first digits of a serial number.
+fn record(line: Line<'_>) -> &[u8] {
+    let name = line.columns(1, 6).text;
+    let digits = name.iter().rev().take_while(|b| b.is_ascii_digit()).count();
+    name[..name.len() - digits].trim_ascii_end()
+}
+
 /// Keeps a model that has atoms.
 fn close(frames: &mut Frames<'_>, model: &mut Model) -> Result<(), ReadError> {
     let done = std::mem::take(model);
@@ -81,7 +93,12 @@ fn close(frames: &mut Frames<'_>, model: &mut Model) -> Result<(), ReadError> {
 }
 
 /// The sphere of an atom, or `None` for another location of one that is there.
-fn sphere(line: Line<'_>, model: &mut Model, tally: &mut Tally) -> Result<Option<Sphere>, ReadError> {
+fn sphere(
+    line: Line<'_>,
+    model: &mut Model,
+    frames: &Frames<'_>,
+    tally: &mut Tally,
+) -> Result<Option<Sphere>, ReadError> {
     let mut center = [0.0; 3];
     for (axis, field) in ["x", "y", "z"].into_iter().enumerate() {
         let word = line.columns(31 + 8 * axis, 38 + 8 * axis);
@@ -92,8 +109,13 @@ fn sphere(line: Line<'_>, model: &mut Model, tally: &mut Tally) -> Result<Option
     }
     let location = line.text[16];
     if location != b' ' {
+        // The maps grow at other times than the list, and take less than it does while it grows.
+        frames.allowed(2 * model.spheres.len())?;
+        let residue = std::array::from_fn(|i| line.text[21 + i]);
+        let name = std::array::from_fn(|i| line.text[17 + i]);
+        let is_other_residue = *model.first_name.entry(residue).or_insert(name) != name;
         let key = std::array::from_fn(|i| line.text[if i < 4 { 12 + i } else { 17 + i }]);
-        if *model.first_location.entry(key).or_insert(location) != location {
+        if is_other_residue || *model.first_location.entry(key).or_insert(location) != location {
             tally.alternates += 1;
             return Ok(None);
         }

@@ -1,5 +1,5 @@
 //! Lines and words of a text file, each knowing where it stands. Bytes come in, numbers go out; what is
-//! refused is named with file, line, column and value. Lines end in LF or CR LF, the last one may lack it;
+//! refused is named with file, line, column and value. Lines end in LF, CR or both, the last one may lack it;
 //! bytes that are no UTF-8 are kept, since only names and comments have them.
 
 use super::{Place, ReadError};
@@ -64,6 +64,9 @@ impl<'a> Lines<'a> {
     }
 }
 
+/// The ends of a line, the longest first.
+const ENDS: [&[u8]; 4] = [b"\r\r\n", b"\r\n", b"\r", b"\n"];
+
 impl<'a> Iterator for Lines<'a> {
     type Item = Line<'a>;
 
@@ -72,14 +75,12 @@ impl<'a> Iterator for Lines<'a> {
             return None;
         }
         self.number += 1;
-        let end = self.rest.iter().position(|&b| b == b'\n');
-        let (text, rest) = match end {
-            Some(end) => (&self.rest[..end], &self.rest[end + 1..]),
-            None => (self.rest, &self.rest[self.rest.len()..]),
-        };
-        self.rest = rest;
+        let end = self.rest.iter().position(|&b| matches!(b, b'\n' | b'\r'));
         self.open = end.is_none();
-        let text = text.strip_suffix(b"\r").unwrap_or(text);
+        let (text, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
+        // CR CR LF is what becomes of CR LF where LF is written as CR LF once more.
+        let end = ENDS.iter().find_map(|end| rest.strip_prefix(*end));
+        self.rest = end.unwrap_or(rest);
         Some(Line { file: self.file, number: self.number, text })
     }
 }

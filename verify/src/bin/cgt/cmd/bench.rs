@@ -37,10 +37,12 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if let Some(folder) = &args.out {
         say(&format!("page: {}\n", folder.join("bench.html").display()))?;
     }
+    let held = report.baseline.as_ref();
     Ok(match report.verdict() {
         Verdict::Wrong => ExitCode::from(1),
         Verdict::Undecidable | Verdict::NotJudged => ExitCode::from(3),
-        _ if report.baseline.is_some_and(|held| held.is_slower()) => ExitCode::from(4),
+        _ if held.is_some_and(Held::is_slower) => ExitCode::from(4),
+        _ if held.is_some_and(|held| !held.missing.is_empty()) => ExitCode::from(3),
         Verdict::Equal | Verdict::WithinBound => ExitCode::SUCCESS,
     })
 }
@@ -78,7 +80,7 @@ pub(crate) fn measured(args: &Args) -> Result<Bench, Failure> {
         baseline: None,
     };
     if let Some(text) = baseline {
-        report.baseline = Some(Held { tolerance: args.tolerance / 100.0, steps: compare(&text, &report)? });
+        report.baseline = Some(compare(&text, &report, args.tolerance / 100.0)?);
     }
     Ok(report)
 }
