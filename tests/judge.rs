@@ -225,8 +225,12 @@ fn what_lies_between_two_roots_is_wrong() {
             let judgement = from_a_surface(t, rounding);
             assert_eq!(judgement.verdict, Verdict::Wrong, "{rounding:?}, t {t:?}: {judgement:?}");
         }
-        let judgement = from_a_surface(2f32.next_up(), rounding);
-        assert_eq!(judgement.verdict, Verdict::WithinBound, "{rounding:?}: {judgement:?}");
+        // A step of f32 is more than f64 is off.
+        let step = if rounding == Rounding::TextbookF64 { Verdict::Wrong } else { Verdict::WithinBound };
+        for (t, verdict) in [(2f32, Verdict::Equal), (2f32.next_up(), step)] {
+            let judgement = from_a_surface(t, rounding);
+            assert_eq!(judgement.verdict, verdict, "{rounding:?}, t {t:?}: {judgement:?}");
+        }
     }
 }
 

@@ -98,9 +98,9 @@ fn frames_of_a_pdb_may_end_in_end_alone() {
 fn columns_of_extended_xyz_are_those_named() {
     let text = "\
 2
-Lattice=\"9 0 0 0 9 0 0 0 9\" Properties=id:I:1:pos:R:3:move_mask:L:2:species:S:1 Time=0
-1 0.5 0.6 0.7 T F O
-2 1 2 3 F F 1
+Lattice=\"9 0 0 0 9 0 0 0 9\" Properties=id:I:1:type:I:1:pos:R:3:move_mask:L:2:species:S:1 Time=0
+1 9 0.5 0.6 0.7 T F O
+2 9 1 2 3 F F 1
 1
 properties=\"species:S:1:pos:R:3:forces:R:3\"
 S 4 5 6 7 8 9
@@ -109,7 +109,7 @@ plain
 C 7 8 9
 ";
     let loaded = ok("a.xyz", text.as_bytes());
-    let spheres = loaded.animation.frames().iter().flat_map(|f| f.spheres());
+    let spheres = loaded.animation.frames().iter().flat_map(contract::Scene::spheres);
     let found: Vec<_> = spheres.map(|s| (s.radius, s.center)).collect();
     let want =
         [(1.52, [0.5, 0.6, 0.7]), (1.20, [1.0, 2.0, 3.0]), (1.80, [4.0, 5.0, 6.0]), (1.70, [7.0, 8.0, 9.0])];
