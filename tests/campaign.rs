@@ -217,6 +217,14 @@ fn a_shard_that_was_cut_anywhere_goes_on() {
             assert_eq!(done(&plan, "3/3", again.path()), file);
             assert!(std::fs::read(&file).expect("readable") == text, "whole, cut at {cut} of {}", text.len());
             assert!(!part.exists());
+            // What is done beside it already is neither lost nor done again by what is left of it.
+            std::fs::write(&file, &text[..=ends[0]]).expect("written");
+            std::fs::write(&part, &text[..=ends[1]]).expect("written");
+            let begun = std::cell::Cell::new(None);
+            let tick = |done, _| begun.set(begun.get().or(Some(done)));
+            run(&plan, which("3/3"), Level::SCALAR, again.path(), &tick).expect("it goes on");
+            assert_eq!(begun.get(), Some(1), "units that were there");
+            assert!(std::fs::read(&file).expect("readable") == text, "beside a part, cut at {cut}");
         } else {
             let error = run(&plan, which("3/3"), Level::SCALAR, again.path(), &|_, _| ())
                 .expect_err("nothing is left");

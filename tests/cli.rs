@@ -340,7 +340,7 @@ fn replay(told: &str) -> &str {
 }
 
 /// It has the frame, the whole view, and of the grid tracer the plan, the level of many and the cells: typed again, it comes to the same
-/// pixel, with the same two lines before it.
+/// account, of that tracer alone.
 #[test]
 fn an_account_says_what_comes_to_it_again() {
     let desk = Desk::new();

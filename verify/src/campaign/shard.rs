@@ -222,8 +222,10 @@ pub fn run(
         if lines.cut == 0 && lines.found.len() as u64 == which.share(plan.units().count() as u64) {
             return Ok(whole);
         }
-        // It lost its end, in a copy perhaps. What is left is gone on from.
-        std::fs::rename(&whole, &part).map_err(at(&part))?;
+        // It lost its end, in a copy perhaps. What is left is gone on from, but where somebody is or was at work on it again.
+        if !part.exists() {
+            std::fs::rename(&whole, &part).map_err(at(&part))?;
+        }
     }
     std::fs::create_dir_all(folder).map_err(at(folder))?;
     let open = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&part);

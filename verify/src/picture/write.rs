@@ -1,6 +1,6 @@
 //! Writes a file whole or not at all: the bytes go to a temporary file in the same folder, which then takes the
 //! file's name. A path and bytes come in; what fails is named with the path and the cause, and then the file
-//! that was there before is still there and the temporary one is gone. Of a link the file that it leads to is written; what is
+//! that was there before is still there and the temporary one is gone. Of a link to a file that file is written; what is
 //! no file (a pipe, a device) is written to as it is; permissions stay as they were.
 
 use std::fs::File;
