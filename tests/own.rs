@@ -217,7 +217,8 @@ fn a_program_that_breaks_the_protocol_is_named_and_is_no_picture() {
     let refusing = format!("{read_all} o.write(b'e' + (9).to_bytes(4, 'little') + b'too large')");
     assert_eq!(failure("refuses.py", &refusing), ForeignError::Refused { said: "too large".into() });
     // What comes with an answer is surplus, of the last frame too; so is a `d` before `g`, which would stop a clock that has not begun.
-    let more = broken("out.flush()\n", "out.flush() if False else out.write(bytes(3)), out.flush()\n");
+    // In one piece, also where Python does not buffer (PYTHONUNBUFFERED).
+    let more = broken("[t for _, t in hits]).tobytes())", "[t for _, t in hits]).tobytes() + bytes(3))");
     assert_eq!(failure("more.py", &more), ForeignError::Surplus { bytes: 3 });
     let early = broken("out.write(b\"r\")", "out.write(b\"rd\")").replace(out, "out.write(");
     assert_eq!(failure("early.py", &early), ForeignError::Surplus { bytes: 1 });
