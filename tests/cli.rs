@@ -53,6 +53,7 @@ impl Desk {
             std::fs::write(desk.path(name), bytes).expect("a file is written");
         }
         std::fs::create_dir(desk.path("no-data")).expect("a folder is made");
+        std::fs::create_dir(desk.path("folder.png")).expect("made");
         desk
     }
 
@@ -115,7 +116,15 @@ const REFUSALS: &[Refusal] = &[
     (&["."], &["."]),
     (&["notes.txt"], &["notes.txt", "\"txt\"", ".pdb"]),
     (&["adk"], &["the data of adk is absent", "tests/fetch-data"]),
-    (&["1hvr", "teapot"], &["the data of teapot is absent", "tests/fetch-data"]),
+    // Before anything is traced, which would leave a file.
+    (
+        &["1hvr", "teapot", "--subject-cmd", "touch ran"],
+        &["the data of teapot is absent", "tests/fetch-data"],
+    ),
+    (&["2juy", "1hvr", "--frames", "0..3", "--subject-cmd", "touch ran"], &["1hvr has frames 0 to 0, not 2"]),
+    (&["chart", "1hvr", "teapot", "--subject-cmd", "touch ran"], &["the data of teapot is absent"]),
+    (&["report", "1hvr", "teapot", "--subject-cmd", "touch ran"], &["the data of teapot is absent"]),
+    (&["report", "--film", "nosuch", "--subject-cmd", "touch ran"], &["nosuch"]),
     (&["empty.pdb"], &["empty.pdb: is empty"]),
     (&["binary.pdb"], &["binary.pdb", "no text"]),
     (&["nan.xyz"], &["nan.xyz:3:3", "x is \"nan\"", "finite"]),
@@ -161,8 +170,14 @@ const REFUSALS: &[Refusal] = &[
     (&["--out", "file"], &["`file`", "Not a directory"]),
     (&["--out", "file/below"], &["`file/below`", "Not a directory"]),
     (&["--out", ""], &["--out"]),
-    (&["render", "1hvr", "file/x.png"], &["`file`", "Not a directory"]),
-    (&["render", "1hvr", "missing/x.png"], &["missing"]),
+    (&["render", "1hvr", "file/x.png"], &["`file/x.png`", "Not a directory"]),
+    // Before the scene is looked at.
+    (&["render", "nosuch", "missing/x.png"], &["`missing/x.png`", "No such file"]),
+    (&["render", "nosuch", "missing/x%d.png", "--frames", "0..1"], &["`missing/x0.png`", "No such file"]),
+    (&["render", "nosuch", "missing/x.gif", "--frames", "0..1"], &["`missing/x.gif`", "No such file"]),
+    (&["render", "nosuch", "folder.png"], &["`folder.png`", "directory"]),
+    (&["bench", "nosuch", "--json", "missing/bench.json"], &["`missing/bench.json`", "No such file"]),
+    (&["spu", "nosuch", "--json", "missing/spu.json"], &["`missing/spu.json`", "No such file"]),
     (&["render", "1hvr", "x.jpg"], &["`x.jpg`", ".png", ".exr"]),
     (&["render", "1hvr", "x"], &["`x`", ".png", ".exr"]),
     (&["render", "1hvr", ""], &["<FILE>"]),
@@ -175,7 +190,8 @@ const REFUSALS: &[Refusal] = &[
     (&["figures", "--out", "file"], &["`file`", "Not a directory"]),
     (&["claims", "nosuch"], &["nosuch", "1hvr"]),
     (&["claims", "adk"], &["the data of adk is absent", "tests/fetch-data"]),
-    (&["claims", "--json", "file/claims.json"], &["`file`", "Not a directory"]),
+    (&["claims", "nosuch", "--json", "file/claims.json"], &["`file/claims.json`", "Not a directory"]),
+    (&["claims", "nosuch", "--markdown", "missing/claims.md"], &["`missing/claims.md`", "No such file"]),
     (&["claims", "--sample", "0"], &["--sample"]),
     // Usage.
     (&["render"], &["<SCENE>", "<FILE>"]),
@@ -409,10 +425,8 @@ fn pictures_can_be_decoded() {
     );
 }
 
-/// Each chapter by itself, and all on one page: files, exit codes, and what is on the terminal.
-#[test]
-fn charts_maps_and_the_report_are_made() {
-    let desk = Desk::new();
+/// Each chapter by itself: a page, data and a table.
+fn chapters_alone(desk: &Desk) {
     let tiny = ["--size", "48x27", "--rounds", "1", "--threads", "1"];
     let made = |name: &str, words: &[&str], wants: &[&str]| {
         let met = desk.run(&[words, &["--out", name][..]].concat());
@@ -434,12 +448,24 @@ fn charts_maps_and_the_report_are_made() {
     );
     made(
         "ablation",
-        &[&["ablate", "uniform:50:1"][..], &tiny[..]].concat(),
+        &[&["ablate", "uniform:50:1", "--sample", "64"][..], &tiny[..]].concat(),
         &["for", "culling", "times the time"],
     );
+}
+
+/// Each chapter by itself, and all on one page: files, exit codes, and what is on the terminal.
+#[test]
+fn charts_maps_and_the_report_are_made() {
+    let desk = &Desk::new();
     let report =
         ["report", "uniform:50:1", "--film", "none", "--rays", "64", "--rounds", "1", "--size", "48x27"];
-    let met = desk.run(&[&report[..], &["--skip", "proofs,bench,figures", "--out", "all"][..]].concat());
+    let report = &[&report[..], &["--skip", "proofs,bench,figures", "--out", "all"][..]].concat();
+    // The longest, beside the others.
+    let met = std::thread::scope(|scope| {
+        let whole = scope.spawn(move || desk.run(report));
+        chapters_alone(desk);
+        whole.join().expect("it runs")
+    });
     assert_eq!(met.code, 0, "{}{}", met.out, met.err);
     let page = std::fs::read_to_string(desk.path("all").join("report.html")).expect("there is a page");
     for chapter in ["advice", "chart", "stability", "ablation", "paper", "spu"] {
@@ -708,14 +734,17 @@ fn a_read_only_place_is_refused_before_anything_is_rendered() {
         _ = writeln!(std::io::stderr(), "not judged: writing into a read-only place: none was found");
     }
     for place in places {
-        for words in [
-            // Only the look at the place before rendering says it in the words asked for below.
-            vec!["1hvr".to_owned(), "--size".into(), SMALL.into(), "--out".into(), format!("{place}/report")],
-            vec!["render".into(), "1hvr".into(), format!("{place}/x.png"), "--size".into(), SMALL.into()],
+        // Only the look at the place before rendering says the first, and only one before the scene's the second.
+        for (words, wanted) in [
+            (
+                vec!["1hvr", "--size", SMALL, "--out", &format!("{place}/report")],
+                "cannot write into the folder",
+            ),
+            (vec!["render", "nosuch", &format!("{place}/x.png")], "cannot make a file in the folder"),
         ] {
             let said = desk.run(&words);
             assert_eq!((said.code, said.out.as_str()), (2, ""), "{words:?}: {}", said.err);
-            assert!(said.err.contains("cannot write into the folder"), "{words:?}: {}", said.err);
+            assert!(said.err.contains(wanted), "{words:?}: {}", said.err);
         }
     }
 }

@@ -137,18 +137,18 @@ fn dcd(atoms: usize) -> Vec<u8> {
 /// Headers that promise what is not there, packed files that unpack to far more than they are, lines without an end, brackets without one.
 fn bombs() -> Vec<Case> {
     let mut cases = Vec::new();
+    // Packed once for all readers; the last of some megabytes, most of it used up by what does not pack.
+    let mut half = b"# ".to_vec();
+    half.extend(digits(6 * MB));
+    half.push(b'\n');
+    half.extend(b"s 1 1 1 1\n".repeat(2 * MB));
+    let bombs = [("blanks", vec![b' '; 40 * MB]), ("zeros", vec![0; 40 * MB]), ("half", half)];
+    let bombs = bombs.map(|(what, plain)| (what, std::rc::Rc::new(packed(&plain))));
     for (_, extension) in READERS {
         let name = |what: &str| format!("{what}.{extension}");
-        cases.push(case(&(name("blanks") + ".gz"), || packed(&vec![b' '; 40 * MB])));
-        cases.push(case(&(name("zeros") + ".gz"), || packed(&vec![0; 40 * MB])));
-        // Of some megabytes, most of it used up by what does not pack.
-        cases.push(case(&(name("half") + ".gz"), || {
-            let mut plain = b"# ".to_vec();
-            plain.extend(digits(6 * MB));
-            plain.push(b'\n');
-            plain.extend(b"s 1 1 1 1\n".repeat(2 * MB));
-            packed(&plain)
-        }));
+        for (what, bomb) in bombs.clone() {
+            cases.push(case(&(name(what) + ".gz"), move || bomb.to_vec()));
+        }
         cases.push(case(&name("line"), || vec![b'x'; 15 * MB]));
         cases.push(case(&name("digits"), || digits(10 * MB)));
         cases.push(case(&name("words"), || lines("", "x ", 5 * MB)));

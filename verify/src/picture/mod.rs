@@ -14,7 +14,7 @@ pub use self::difference::{PALETTE, RARE, bold_difference, difference, fault_col
 pub use self::exr::exr;
 pub use self::png::{canvas, png};
 pub use self::triptych::{GAP, MARK, join, panels, ring_radius, triptych, zoom};
-pub use self::write::{AtomicFile, WriteError, check_folder, write_atomically};
+pub use self::write::{AtomicFile, WriteError, check_file, check_folder, write_atomically};
 pub use image::RgbaImage;
 
 use contract::Image;

@@ -183,6 +183,22 @@ pub fn check_folder(folder: &Path) -> Result<(), WriteError> {
     temporary(there).map(drop).map_err(refused)
 }
 
+/// Whether a file could be made there, whose folder must be there already; asked as [`check_folder`] is. Of what is no file (a pipe, a device) nothing
+/// is asked, since who reads would take the end of the question for the end of the answer.
+///
+/// # Errors
+/// As [`AtomicFile::new`], and [`WriteError::Place`] where a folder has that name.
+pub fn check_file(path: &Path) -> Result<(), WriteError> {
+    match std::fs::metadata(path) {
+        Ok(there) if there.is_dir() => {
+            let cause = std::io::ErrorKind::IsADirectory.into();
+            Err(WriteError::Place { path: path.into(), cause })
+        }
+        Ok(there) if !there.is_file() => Ok(()),
+        _ => AtomicFile::new(path).map(drop),
+    }
+}
+
 /// The system's error without the name of the temporary file, which `tempfile` adds and which says nothing to a
 /// person. It hands out the original only as text.
 fn bare(error: std::io::Error) -> std::io::Error {

@@ -1,7 +1,7 @@
 //! `cgt ablate`: what each choice of a plan buys, on the terminal and into files out.
 
 use super::files;
-use super::verify::{framed, load, warn};
+use super::verify::{all_there, framed, load, warn};
 use crate::args::{Ablate as Args, or_few};
 use crate::environment::environment;
 use crate::{Failure, progress};
@@ -33,7 +33,9 @@ pub(crate) fn found(args: &Args) -> Result<Ablation, Failure> {
     let (threads, seed) = (args.view.threads(), seed());
     let frame = args.view.frame;
     let (mut scenes, mut looked) = (Vec::new(), Vec::new());
-    for word in &or_few(&args.scenes) {
+    let names = or_few(&args.scenes);
+    all_there(&names, frame)?;
+    for word in &names {
         let (loaded, scene) = load(word, frame)?;
         warn(&loaded);
         let framing = framed(&args.view, &loaded, SIZE)?;

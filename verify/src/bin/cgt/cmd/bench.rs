@@ -1,13 +1,12 @@
 //! `cgt bench`: scenes in, times on the terminal and into files out.
 
 use super::files;
-use super::verify::{load, warn};
+use super::verify::{all_there, load, warn};
 use crate::args::{Bench as Args, default_scenes};
 use crate::environment::environment;
 use crate::{Failure, progress, say};
 use optimized::Level;
 use std::io::IsTerminal;
-use std::path::Path;
 use std::process::ExitCode;
 use std::time::Duration;
 use verify::bench::baseline::compare;
@@ -17,7 +16,7 @@ use verify::bench::text::text;
 use verify::bench::{
     Bench, Effort, Field, Input, Outsider, SceneBench, Setting, Summary, bench, curves, page,
 };
-use verify::picture::check_folder;
+use verify::picture::{check_file, check_folder};
 use verify::report::Absent;
 use verify::seed::seed;
 use verify::subject::NamedPlan;
@@ -26,7 +25,7 @@ use verify::verdict::Verdict;
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     // What is to be written and read is asked for before minutes are spent.
     if let Some(file) = &args.json {
-        check_folder(file.parent().unwrap_or(Path::new(".")))?;
+        check_file(file)?;
     }
     if let Some(folder) = &args.out {
         check_folder(folder)?;
@@ -61,6 +60,7 @@ pub(crate) fn measured(args: &Args) -> Result<Bench, Failure> {
     let effort = Effort { rounds: args.rounds.map(usize::from), time: Duration::from_secs_f64(args.seconds) };
     let setting = Setting { plan, level, threads, field: &field, picked: args.plans, effort, seed: seed() };
     let names = if args.scenes.is_empty() { default_scenes() } else { args.scenes.clone() };
+    all_there(&names, args.view.frame)?;
     let scenes = names.iter().map(|word| one(word, args, &setting)).collect::<Result<Vec<_>, _>>()?;
     let curves =
         if args.curves { curves(&asked(args, &names[0], &setting), &bar("curves"))? } else { Vec::new() };

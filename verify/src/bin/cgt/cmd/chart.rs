@@ -1,6 +1,6 @@
 //! `cgt chart`: scenes in, every method's speed against its error on the terminal and into files out.
 
-use super::verify::{framed, load, warn};
+use super::verify::{all_there, framed, load, warn};
 use super::{distinct, files};
 use crate::args::{Chart as Args, or_few};
 use crate::environment::environment;
@@ -33,9 +33,9 @@ pub(crate) fn chart(args: &Args) -> Result<Chart, Failure> {
     methods.extend(args.own.tracers()?.iter().map(|tracer| method(tracer, threads)));
     distinct(methods.iter().map(|method| method.name.as_str()))?;
     let (names, seed) = (or_few(&args.scenes), seed());
-    let mut views = Vec::new();
+    let (mut views, frame) = (Vec::new(), args.view.frame);
+    all_there(&names, frame)?;
     for word in &names {
-        let frame = args.view.frame;
         let (loaded, scene) = load(word, frame)?;
         warn(&loaded);
         let framing = framed(&args.view, &loaded, SIZE)?;

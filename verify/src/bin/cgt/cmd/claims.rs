@@ -7,12 +7,11 @@ use crate::{Failure, progress, say};
 use contract::{Camera, Scene};
 use optimized::Plan;
 use rayon::prelude::*;
-use std::path::Path;
 use std::process::ExitCode;
 use verify::paper::record::{Record, SCENES, SCHEMA_VERSION};
 use verify::paper::text::text;
 use verify::paper::{Looked, claims, look, ticks};
-use verify::picture::{check_folder, write_atomically};
+use verify::picture::{check_file, write_atomically};
 use verify::scenes::catalogue::{Source, SourceError};
 use verify::seed::seed;
 use verify::spu::survey::Input;
@@ -22,7 +21,7 @@ const NO_VERDICT: u8 = 3;
 
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     for file in [&args.json, &args.markdown].into_iter().flatten() {
-        check_folder(file.parent().unwrap_or(Path::new(".")))?;
+        check_file(file)?;
     }
     let (mut scenes, mut absent) = (Vec::new(), 0);
     for word in names(args) {

@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use verify::picture::film::{Announced, Film, Format};
-use verify::picture::{AtomicFile, canvas, check_folder, exr, png, write_atomically};
+use verify::picture::{AtomicFile, canvas, check_file, exr, png, write_atomically};
 use verify::subject::{NamedPlan, Rounding};
 
 /// What a picture becomes.
@@ -30,8 +30,10 @@ enum Target {
 
 pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
     let target = target(args)?;
-    if !matches!(target, Target::Pipe) {
-        check_folder(args.file.parent().unwrap_or(&args.file))?;
+    match &target {
+        Target::Pipe => {}
+        Target::Numbered(pattern, _) => check_file(&pattern.path(0))?,
+        Target::Picture(_) | Target::Film(_) => check_file(&args.file)?,
     }
     let frames = args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1);
     let (loaded, _) = load(&args.scene, frames.end - 1)?;

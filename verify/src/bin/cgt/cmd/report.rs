@@ -1,6 +1,6 @@
 //! `cgt report`: everything the suite finds out, on one page that opens offline, with the data of each chapter beside it.
 
-use super::verify::{judged, live, load};
+use super::verify::{all_there, judged, live, load};
 use super::{ablate, bench, chart, claims, distinct, figures, files, stability};
 use crate::args::{self, or_few};
 use crate::environment::environment;
@@ -46,6 +46,10 @@ pub(crate) fn run(args: &args::Report) -> Result<ExitCode, Failure> {
     let view = args::View { size: Some(size), threads: args.threads, ..args::View::default() };
     let threads = view.threads();
     let module = args.live.as_deref().map(Module::read).transpose()?;
+    all_there(&names, 0)?;
+    if args.film != NO_FILM {
+        load(&args.film, 0)?;
+    }
     chapter("pictures");
     let (mut scenes, mut pictures) = (Vec::new(), Vec::new());
     let mut subjects = subjects(level);

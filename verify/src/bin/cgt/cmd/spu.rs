@@ -8,9 +8,8 @@ use crate::{Failure, progress, say};
 use optimized::Plan;
 use optimized::camera::BLOCK;
 use optimized::plan::Resolution;
-use std::path::Path;
 use std::process::ExitCode;
-use verify::picture::check_folder;
+use verify::picture::{check_file, check_folder};
 use verify::spu::curves::{Asked, Curve, POINTS, curves};
 use verify::spu::data::{Report, SCHEMA_VERSION};
 use verify::spu::host::{SEED, Way, on_host, walks};
@@ -30,7 +29,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         return walk(word);
     }
     if let Some(file) = &args.json {
-        check_folder(file.parent().unwrap_or(Path::new(".")))?;
+        check_file(file)?;
     }
     if let Some(folder) = &args.out {
         check_folder(folder)?;

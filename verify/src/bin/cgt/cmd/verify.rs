@@ -35,11 +35,8 @@ pub(crate) fn verify(args: &Verify) -> Result<ExitCode, Failure> {
     check_folder(&args.out)?;
     let module = args.live.as_deref().map(Module::read).transpose()?;
     let (mut scenes, mut pictures, mut kept) = (Vec::new(), Vec::new(), Vec::new());
+    all_there(&args.scenes, args.frames.as_ref().map_or(args.view.frame, |frames| frames.end - 1))?;
     for word in &args.scenes {
-        // What is not there is told before anything is rendered.
-        if let Some(frames) = &args.frames {
-            load(word, frames.end - 1)?;
-        }
         for frame in args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1) {
             let view = View { frame, ..args.view.clone() };
             let live = live(module.as_ref().filter(|_| scenes.is_empty()), word, &view)?;
@@ -209,6 +206,11 @@ pub(crate) fn load(word: &str, frame: usize) -> Result<(Loaded, Scene), Failure>
     };
     let scene = scene.clone();
     Ok((loaded, scene))
+}
+
+/// Of several scenes the one that is not there, or has no such frame, is told before minutes are spent on the others.
+pub(crate) fn all_there(words: &[String], frame: usize) -> Result<(), Failure> {
+    words.iter().try_for_each(|word| load(word, frame).map(drop))
 }
 
 /// How a scene is seen: as it is wished, then as it wants to be, of a size if none was wished.
