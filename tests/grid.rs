@@ -13,6 +13,7 @@ use std::io::Write;
 use std::sync::OnceLock;
 use verify::matrix::{Case, Matrix};
 use verify::scenes::catalogue::{DATA_VARIABLE, ENTRIES, Source};
+use verify::seed::{count, seed};
 
 fn matrix() -> Matrix {
     let matrix = Matrix::new().expect("all data that is there can be read");
@@ -149,26 +150,29 @@ fn plans() -> Vec<Plan> {
     plans
 }
 
-/// Plans times levels times workers, each on a few cases of the matrix in turn, so that every plan, level and number of
-/// workers meets every other and every case is met.
+/// Every plan at every level, with two of five numbers of workers (`CGT_GRID_WORKERS`: with so many of them), each on a case of the matrix in
+/// turn: every plan meets every number of workers, every case is met, and which meets which is another one with each seed.
 #[test]
 fn every_combination_changes_nothing() {
     let (pictures, levels) = (Pictures::all(), Level::available());
     let cases = &pictures.matrix.cases;
     let plans = plans();
     let workers = [1, 2, 3, 5, 8];
-    let mut tasks = Vec::new();
+    let numbers = usize::try_from(count("CGT_GRID_WORKERS", 2)).expect("few").clamp(1, workers.len());
+    let (mut tasks, seed) = (Vec::new(), seed());
+    eprintln!("CGT_SEED={seed}, {numbers} numbers of workers");
+    let first = (seed % cases.len() as u64) as usize;
     for (p, plan) in plans.iter().enumerate() {
         for (l, level) in levels.iter().enumerate() {
-            for (w, workers) in workers.iter().enumerate() {
+            for w in (0..numbers).map(|n| (p + l + 2 * n) % workers.len()) {
                 let sharing = if (p + l + w) % 4 == 0 { Sharing::Mirrored } else { Sharing::Shared };
-                let case = (tasks.len() * 7) % cases.len();
-                tasks.push((Plan { sharing, ..*plan }, *level, *workers, case));
+                let case = (first + tasks.len()) % cases.len();
+                tasks.push((Plan { sharing, ..*plan }, *level, workers[w], case));
             }
         }
     }
     assert_eq!(plans.len(), 192, "a choice was added or lost");
-    assert_eq!(tasks.len(), 192 * levels.len() * workers.len());
+    assert_eq!(tasks.len(), 192 * levels.len() * numbers);
     eprintln!("levels: {}", levels.iter().map(|level| level.name()).collect::<Vec<_>>().join(", "));
     let each = tasks.par_iter().map(|&(plan, level, workers, case)| {
         judge(&cases[case], pictures.naive(case, plan.arithmetic), plan, level, workers)

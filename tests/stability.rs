@@ -62,7 +62,7 @@ fn told(rays: u64, seed: u64, curves: Vec<Curve>, maps: Vec<Map>) -> Stability {
 fn all() -> &'static Stability {
     static ALL: OnceLock<Stability> = OnceLock::new();
     ALL.get_or_init(|| {
-        let (seed, rays) = (seed(), count("CGT_STABILITY_RAYS", 24_576));
+        let (seed, rays) = (seed(), count("CGT_STABILITY_RAYS", 16_384));
         eprintln!("CGT_SEED={seed}, {rays} rays at each value");
         let methods = |cells| swept(cells, Level::best().expect("a level"), &mut Vec::new());
         run(&methods, rays, seed, &[named("2juy")])

@@ -141,7 +141,7 @@ fn check(plan: Plan, seed: u64, i: u64) -> Checked {
 
 #[test]
 fn hits_are_visible_and_listings_complete() {
-    let (seed, scenes) = (seed(), count("CGT_VISIBLE_SCENES", 600));
+    let (seed, scenes) = (seed(), count("CGT_VISIBLE_SCENES", 300));
     eprintln!("CGT_SEED={seed}, {scenes} scenes for each plan");
     for voxelizer in VOXELIZERS {
         for arithmetic in ARITHMETICS {
