@@ -4,6 +4,7 @@ use crate::samples::*;
 use contract::{Animation, DEFAULT_LIGHT, Scene, Sphere};
 use rand::Rng;
 use verify::scenes::catalogue;
+use verify::scenes::frame::Framing;
 use verify::scenes::read::read_bytes;
 use verify::scenes::write;
 use verify::seed::{generator, seed};
@@ -25,6 +26,14 @@ fn json_round_trip_is_bit_for_bit() {
     assert_eq!(first.animation.frames()[0].spheres()[0].center[1].to_bits(), 0x8000_0000);
     assert_eq!(first.camera.map(|c| c.size()), Some(size(100, 99)));
     assert_eq!(first.camera(&Default::default()).ok(), first.camera, "a file's camera is used as it is");
+    // Of another size it is the same view, from corner to corner.
+    let wish = Framing { size: Some(size(25, 33)), ..Framing::default() };
+    let small = first.camera(&wish).expect("a camera");
+    assert_eq!((small.eye(), small.corner(), small.size()), ([0.1; 3], [-1.0, 1.0, -2.0], size(25, 33)));
+    assert_eq!((small.du(), small.dv()), ([4.0 * 0.02, 0.0, 0.0], [0.0, 3.0 * -0.02, 0.0]));
+    // Whoever wishes for another view gets that.
+    let eye = Framing { eye: Some([0.0, 0.0, 50.0]), ..wish };
+    assert_eq!(first.camera(&eye).map(|camera| camera.eye()).ok(), Some([0.0, 0.0, 50.0]));
     let mut random = seeded("json_round_trip_is_bit_for_bit");
     let mut any = || loop {
         let x = f32::from_bits(random.next_u32());

@@ -94,6 +94,12 @@ impl Framing {
         }
     }
 
+    /// Whether no other view is wished: nothing at all, or a size and no more.
+    #[must_use]
+    pub fn is_size(&self) -> bool {
+        *self == Self { size: self.size, ..Self::default() }
+    }
+
     /// A camera for all frames of an animation.
     ///
     /// # Errors
@@ -192,6 +198,22 @@ impl Aim {
         let dv = self.up.map(|x| (-2.0 * high / f64::from(size.height()) * x) as f32);
         Camera::new(eye.map(|x| x as f32), corner, du, dv, size)
     }
+}
+
+/// A camera's view in other pixels: from its eye, from corner to corner as before; of another shape of picture pixels become oblong.
+///
+/// # Errors
+/// [`CameraError`] if its steps become too small or too large.
+pub fn in_pixels(camera: &Camera, size: Size) -> Result<Camera, CameraError> {
+    if size == camera.size() {
+        return Ok(*camera);
+    }
+    let step = |step: [f32; 3], from: u32, to: u32| {
+        step.map(|x| (f64::from(x) * f64::from(from) / f64::from(to)) as f32)
+    };
+    let du = step(camera.du(), camera.size().width(), size.width());
+    let dv = step(camera.dv(), camera.size().height(), size.height());
+    Camera::new(camera.eye(), camera.corner(), du, dv, size)
 }
 
 /// Whether the whole silhouette of a sphere lies in the picture of a camera, and the eye outside the sphere.

@@ -26,7 +26,7 @@ pub use error::{Place, ReadError};
 pub use frames::{MAX_WARNINGS, Warning};
 pub use gzip::limit as gzip_limit;
 
-use crate::scenes::frame::{Framing, FramingError};
+use crate::scenes::frame::{Framing, FramingError, in_pixels};
 use contract::{Animation, Camera};
 use frames::Input;
 pub(super) use json::{FORMAT as JSON_FORMAT, VERSION as JSON_VERSION};
@@ -56,13 +56,17 @@ pub struct Loaded {
 
 impl Loaded {
     /// The camera to show it with: what `wish` leaves open is taken from the file's own view, then chosen so
-    /// that all of it is seen. The file's camera is used as it is if `wish` is empty.
+    /// that all of it is seen. The file's camera is used as it is if `wish` is empty, and with as many pixels as are wished
+    /// if `wish` is a size and no more.
     ///
     /// # Errors
     /// [`FramingError`] if no such camera exists.
     pub fn camera(&self, wish: &Framing) -> Result<Camera, FramingError> {
         match self.camera {
-            Some(camera) if *wish == Framing::default() => Ok(camera),
+            Some(camera) if wish.is_size() => match wish.size {
+                Some(size) => Ok(in_pixels(&camera, size)?),
+                None => Ok(camera),
+            },
             _ => wish.or(&self.framing.unwrap_or_default()).camera(&self.animation),
         }
     }

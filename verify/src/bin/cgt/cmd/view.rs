@@ -6,7 +6,6 @@ use crate::{Failure, progress, say};
 use optimized::Level;
 use std::process::ExitCode;
 use std::time::Duration;
-use verify::scenes::frame::Framing;
 use verify::subject::NamedPlan;
 use verify::view::clock::Limit;
 use verify::view::player::Player;
@@ -65,7 +64,7 @@ fn viewer(args: &Args) -> Result<Viewer, Failure> {
     let wish = args.view.framing();
     let camera = loaded.camera(&wish)?;
     // A file's own camera knows what is up; where one is chosen, something was wished for, or +y.
-    let own = loaded.camera.is_some() && wish == Framing::default();
+    let own = loaded.camera.is_some() && wish.is_size();
     let up = wish.or(&loaded.framing.unwrap_or_default()).up.unwrap_or([0.0, 1.0, 0.0]);
     let plan = NamedPlan::ALL.into_iter().find(|plan| plan.name() == args.plan).unwrap_or(NamedPlan::Fast);
     let mut state = State::new(plan, level, args.view.threads());
