@@ -108,6 +108,7 @@ type Refusal = (&'static [&'static str], &'static [&'static str]);
 /// All of these end with code 2, print nothing on standard output, and write nothing.
 const REFUSALS: &[Refusal] = &[
     (&["prove", "nosuch"], &["no lemma is named nosuch"]),
+    (&["prove", "nosuch", "--json", "missing/prove.json"], &["`missing/prove.json`", "No such file"]),
     // Scenes.
     (&["nosuch"], &["nosuch", "1hvr", "sphereflake:LEVELS"]),
     (&[""], &["\"\" is no scene"]),
@@ -139,6 +140,9 @@ const REFUSALS: &[Refusal] = &[
     (&["sphereflake:99"], &["the limit is 134217728"]),
     (&["lattice:99999999"], &["the limit is 134217728"]),
     (&["render", "nosuch", "x.png"], &["nosuch"]),
+    // Before the first is measured, which would warn of its cut frame.
+    (&["bench", "cut.xyz", "nosuch"], &["nosuch"]),
+    (&["ablate", "cut.xyz", "nosuch"], &["nosuch"]),
     // Subjects and frames.
     (&["--subject", "nosuch"], &["nosuch", "naive-f64", "safe"]),
     (&["--frame", "99"], &["1hvr has frames 0 to 0, not 99"]),
@@ -207,6 +211,11 @@ fn what_is_wrong_is_said_and_ends_with_2() {
         let said = desk.run(words);
         assert_eq!(said.code, 2, "{words:?}: {}{}", said.out, said.err);
         assert_eq!(said.out, "", "{words:?}: a refusal belongs on standard error");
+        assert!(
+            !said.err.contains("warning:"),
+            "{words:?}: a scene was begun before the refusal\n{}",
+            said.err
+        );
         for want in *wanted {
             assert!(said.err.contains(want), "{words:?}: {want:?} is not said in\n{}", said.err);
         }

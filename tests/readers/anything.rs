@@ -26,11 +26,19 @@ fn json_round_trip_is_bit_for_bit() {
     assert_eq!(first.animation.frames()[0].spheres()[0].center[1].to_bits(), 0x8000_0000);
     assert_eq!(first.camera.map(|c| c.size()), Some(size(100, 99)));
     assert_eq!(first.camera(&Default::default()).ok(), first.camera, "a file's camera is used as it is");
-    // Of another size it is the same view, from corner to corner.
-    let wish = Framing { size: Some(size(25, 33)), ..Framing::default() };
-    let small = first.camera(&wish).expect("a camera");
-    assert_eq!((small.eye(), small.corner(), small.size()), ([0.1; 3], [-1.0, 1.0, -2.0], size(25, 33)));
-    assert_eq!((small.du(), small.dv()), ([4.0 * 0.02, 0.0, 0.0], [0.0, 3.0 * -0.02, 0.0]));
+    // Of another size it is the same view in pixels of the same shape, as high as before and as wide as the picture.
+    let of = |width, height| {
+        let wish = Framing { size: Some(size(width, height)), ..Framing::default() };
+        first
+            .camera(&wish)
+            .map(|camera| (camera.eye(), camera.corner(), camera.du(), camera.dv(), camera.size()))
+    };
+    let (du, dv) = ([3.0 * 0.02, 0.0, 0.0], [0.0, 3.0 * -0.02, 0.0]);
+    // 300 and 60 of its own columns of 100, in the middle.
+    let left = |columns: f64| [(-1.0 + columns * f64::from(0.02_f32)) as f32, 1.0, -2.0];
+    assert_eq!(of(100, 33).expect("a camera"), ([0.1; 3], left(-100.0), du, dv, size(100, 33)));
+    assert_eq!(of(20, 33).expect("a camera"), ([0.1; 3], left(20.0), du, dv, size(20, 33)));
+    let wish = Framing { size: Some(size(100, 33)), ..Framing::default() };
     // Whoever wishes for another view gets that.
     let eye = Framing { eye: Some([0.0, 0.0, 50.0]), ..wish };
     assert_eq!(first.camera(&eye).map(|camera| camera.eye()).ok(), Some([0.0, 0.0, 50.0]));

@@ -200,7 +200,8 @@ impl Aim {
     }
 }
 
-/// A camera's view in other pixels: from its eye, from corner to corner as before; of another shape of picture pixels become oblong.
+/// A camera's view in other pixels of the same shape: as high as before, and of a wider picture more is seen on both sides, as the angle of view
+/// has it.
 ///
 /// # Errors
 /// [`CameraError`] if its steps become too small or too large.
@@ -208,12 +209,14 @@ pub fn in_pixels(camera: &Camera, size: Size) -> Result<Camera, CameraError> {
     if size == camera.size() {
         return Ok(*camera);
     }
-    let step = |step: [f32; 3], from: u32, to: u32| {
-        step.map(|x| (f64::from(x) * f64::from(from) / f64::from(to)) as f32)
-    };
-    let du = step(camera.du(), camera.size().width(), size.width());
-    let dv = step(camera.dv(), camera.size().height(), size.height());
-    Camera::new(camera.eye(), camera.corner(), du, dv, size)
+    let [width, height] = [camera.size().width(), camera.size().height()].map(f64::from);
+    let smaller = height / f64::from(size.height());
+    let [du, dv] = [camera.du(), camera.dv()].map(|step| step.map(|x| (f64::from(x) * smaller) as f32));
+    // Half of what is seen more, in the camera's own columns.
+    let beside = (f64::from(size.width()) * smaller - width) / 2.0;
+    let corner =
+        [0, 1, 2].map(|i| (f64::from(camera.corner()[i]) - beside * f64::from(camera.du()[i])) as f32);
+    Camera::new(camera.eye(), corner, du, dv, size)
 }
 
 /// Whether the whole silhouette of a sphere lies in the picture of a camera, and the eye outside the sphere.

@@ -4,7 +4,7 @@ use super::files;
 use crate::args::Prove as Args;
 use crate::{Failure, progress, say};
 use std::process::ExitCode;
-use verify::picture::write_atomically;
+use verify::picture::{check_file, write_atomically};
 use verify::prove::claims::lemmas;
 use verify::prove::run::{Proofs, run as prove};
 use verify::prove::solver::Solver;
@@ -15,6 +15,9 @@ use verify::seed::seed;
 const NO_VERDICT: u8 = 3;
 
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
+    if let Some(file) = &args.json {
+        check_file(file)?;
+    }
     let wanted =
         |lemma: &Lemma| args.lemmas.is_empty() || args.lemmas.iter().any(|name| lemma.name.starts_with(name));
     let chosen: Vec<Lemma> = lemmas().into_iter().filter(wanted).collect();

@@ -30,12 +30,12 @@ enum Target {
 
 pub(crate) fn render(args: &Render) -> Result<ExitCode, Failure> {
     let target = target(args)?;
+    let frames = args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1);
     match &target {
         Target::Pipe => {}
-        Target::Numbered(pattern, _) => check_file(&pattern.path(0))?,
+        Target::Numbered(pattern, _) => check_file(&pattern.path(frames.start))?,
         Target::Picture(_) | Target::Film(_) => check_file(&args.file)?,
     }
-    let frames = args.frames.clone().unwrap_or(args.view.frame..args.view.frame + 1);
     let (loaded, _) = load(&args.scene, frames.end - 1)?;
     warn(&loaded);
     let camera = loaded.camera(&args.view.framing())?;
