@@ -4,6 +4,7 @@ use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Sphere};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::{Command, Output};
+use std::sync::mpsc::channel;
 use std::time::Duration;
 use tempfile::TempDir;
 use verify::bench::baseline::{BaselineError, Step, compare};
@@ -368,6 +369,22 @@ fn the_first_wrong_pixel_is_told() {
     }
 }
 
+/// A picture that shows the right spheres where rounding puts them is within it, and equal only if each t and colour is the exact one.
+#[test]
+fn right_spheres_at_other_distances_are_not_equal() {
+    let picture = Picture::new();
+    let seen = picture.truth.ids.iter().position(|&id| id != MISS).expect("something is seen");
+    let mut other = picture.truth.clone();
+    other.t[seen] = other.t[seen].next_up();
+    for (image, wanted, inexact) in [(&picture.truth, Verdict::Equal, 0), (&other, Verdict::WithinBound, 1)] {
+        let layers = Layers { ids: &image.ids, t: &image.t, rgba: None };
+        let within = Oath::rounded(Rounding::TextbookF32);
+        let checked = check(&picture.scene, &picture.camera, &picture.truth, layers, within);
+        assert_eq!((checked.differing, checked.inexact, checked.wrong), (0, inexact, 0));
+        assert_eq!(checked.verdict(), wanted);
+    }
+}
+
 /// f32 states nothing of a sphere whose squared radius it has no number for: what is shown there is neither right nor wrong, and
 /// nobody is timed for it.
 #[test]
@@ -384,7 +401,7 @@ fn who_states_nothing_is_neither_equal_nor_timed() {
     let within = Oath::rounded(Rounding::TextbookF32);
     let checked = check(&scene, &picture.camera, &truth, layers, within);
     let all = pixels as u64;
-    assert_eq!(checked, Checked { differing: all, wrong: 0, not_stated: all, first: None });
+    assert_eq!(checked, Checked { differing: all, inexact: all, wrong: 0, not_stated: all, first: None });
     assert_eq!(checked.verdict(), Verdict::Undecidable);
     assert!(!checked.passes(Kind::Peer, pixels));
 
@@ -411,7 +428,7 @@ fn nobody_may_go_without_a_statement_in_more_than_a_pixel_in_ten_thousand() {
 #[test]
 fn only_others_may_lose_a_pixel_in_ten_thousand() {
     let wrong = |wrong| Checked { wrong, ..Default::default() };
-    for kind in [Kind::Subject, Kind::Limit] {
+    for kind in [Kind::Subject, Kind::Limit, Kind::Picked, Kind::Naive] {
         assert!(wrong(0).passes(kind, 1_000_000) && !wrong(1).passes(kind, 1_000_000), "{kind:?}");
     }
     for kind in [Kind::Embree, Kind::Peer] {
@@ -422,7 +439,7 @@ fn only_others_may_lose_a_pixel_in_ten_thousand() {
 
 // ---- the clock, with contestants whose times are made up ----
 
-/// Shows a picture, the first frames of it as it is and later ones with one pixel changed, and says what time it took.
+/// Shows a picture, the first frames of it as it is and later ones with one pixel changed, does something at each, and says what time it took.
 struct Scripted {
     kind: Kind,
     oath: Oath,
@@ -431,13 +448,15 @@ struct Scripted {
     sound: usize,
     build: Duration,
     took: Duration,
+    at_each: Box<dyn Fn()>,
 }
 
 impl Scripted {
     fn new(image: &Image) -> Self {
         let [build, took] = [1, 4].map(Duration::from_millis);
-        let (frames, sound) = (0, usize::MAX);
-        Self { kind: Kind::Naive, oath: Oath::Exact, image: image.clone(), frames, sound, build, took }
+        let (kind, oath, image) = (Kind::Naive, Oath::Exact, image.clone());
+        let (frames, sound, at_each) = (0, usize::MAX, Box::new(|| ()));
+        Self { kind, oath, image, frames, sound, build, took, at_each }
     }
 }
 
@@ -463,6 +482,7 @@ impl Contestant for Scripted {
             self.image.rgba[3 * 70 + 5][0] ^= 1;
         }
         self.frames += 1;
+        (self.at_each)();
         let Image { ids, t, rgba, .. } = &self.image;
         // Colours are painted by who promises them.
         let rgba = matches!(self.oath, Oath::Exact).then_some(rgba.as_slice());
@@ -493,6 +513,52 @@ fn times_are_those_of_building_of_tracing_and_of_both() {
         }
     }
     close("Mray/s", rows[0].mega_rays_per_second, Some(70.0 * 37.0 / 4e-3 / 1e6));
+}
+
+/// Of one tracer's many ways the fastest are timed, in whichever order they come; the others are told with their heat.
+#[test]
+fn of_many_ways_the_fastest_are_timed() {
+    let picture = Picture::new();
+    let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
+    for order in [[1, 2, 3, 4, 5, 6], [6, 5, 4, 3, 2, 1], [3, 6, 1, 5, 2, 4]] {
+        let way = |milliseconds| {
+            let (build, took) = (Duration::ZERO, Duration::from_millis(milliseconds));
+            Box::new(Scripted { kind: Kind::Embree, build, took, ..Scripted::new(&picture.truth) })
+                as Box<dyn Contestant>
+        };
+        let entrants = order.map(way).into();
+        let (rows, _) = race(entrants, &input, &picture.truth, TWICE, &silent).expect("nobody gives up");
+        for (row, milliseconds) in rows.iter().zip(order) {
+            assert_eq!(
+                (row.remark.is_none(), row.timing.is_some()),
+                (milliseconds <= 3, milliseconds <= 3),
+                "{order:?}: {row:?}"
+            );
+        }
+    }
+}
+
+/// Frames as long as a turn, so that a turn has two, of which the second is counted; the second round begins with the other.
+#[test]
+fn each_round_begins_with_another_and_each_turn_with_a_frame_that_is_not_counted() {
+    let picture = Picture::new();
+    let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
+    let (tell, asked) = channel();
+    let entrant = |name: char| {
+        let tell = tell.clone();
+        let at_each = Box::new(move || {
+            tell.send(name).expect("somebody listens");
+            std::thread::sleep(Duration::from_millis(20));
+        });
+        Box::new(Scripted { at_each, ..Scripted::new(&picture.truth) }) as Box<dyn Contestant>
+    };
+    let entrants = vec![entrant('a'), entrant('b')];
+    let (rows, _) = race(entrants, &input, &picture.truth, TWICE, &silent).expect("nobody gives up");
+    // Before and after the rounds each is checked.
+    assert_eq!(asked.try_iter().collect::<String>(), "ab aabb bbaa ab".replace(' ', ""));
+    for row in rows {
+        assert_eq!(row.timing.map(|timing| timing.frames), Some(2), "in two rounds");
+    }
 }
 
 /// One frame is checked before the clock runs and one after it has run.

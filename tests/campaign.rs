@@ -8,6 +8,7 @@ use verify::campaign::merge::{MergeError, Outcome, merge, status};
 use verify::campaign::plan::{Plan, PlanError, Unit};
 use verify::campaign::shard::{ShardError, Which, read, run};
 use verify::campaign::text::{bin, text};
+use verify::campaign::unit::Bench;
 use verify::case::{Case, worst};
 use verify::properties::Property;
 use verify::subject::Rounding;
@@ -301,7 +302,10 @@ fn a_failure_is_one_case_however_often_it_is_found() {
         assert_eq!(ran.status.code(), Some(0), "{}", said(&ran));
     }
     let told = cgt(&["campaign", "status", "--plan", &plan, &shards]);
-    assert!(said(&told).contains("3 of 3 units"), "{}", said(&told));
+    // Frames 0 and 2 are of the first shard.
+    for part in ["2 of 2 units, whole, 2 failures", "1 of 1 units, whole, 1 failures", "3 of 3 units"] {
+        assert!(said(&told).contains(part), "{}", said(&told));
+    }
     let merged = cgt(&["campaign", "merge", "--plan", &plan, &shards, "--out", &out]);
     assert_eq!(merged.status.code(), Some(1), "{}", said(&merged));
     let merged = merge(&Plan::parse(text).expect("a plan"), &[PathBuf::from(&shards)]).expect("whole");
@@ -386,6 +390,37 @@ fn a_demand_is_met_or_not() {
         assert_eq!(merged.outcome, outcome, "{what}: {least} of {counted}: {:?}", merged.lacking);
         assert_eq!(merged.lacking.len(), usize::from(outcome == Outcome::TooLittle));
     }
+}
+
+/// Whatever the spheres of a film are, in whichever frame, and what they are shown in: with another number it is another scene, whose shards are
+/// not merged with these.
+#[test]
+fn a_film_with_another_number_is_another_film() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let hash = |name: &str, text: &str, frames: usize| {
+        let file = folder.path().join(name);
+        std::fs::write(&file, text).expect("written");
+        let plan = format!(
+            "name = \"film\"\nseed = 1\n[[film]]\nscene = {file:?}\nframes = \"0..{frames}\"\nsize = \"8x8\"\nsubjects = [\"fast\"]\n"
+        );
+        let plan = Plan::parse(&plan).expect("a plan");
+        Bench::new(&plan, Level::SCALAR).expect("it loads").scenes().concat()
+    };
+    let still = "b 0 0 0\nl 0 9 9\nf 1 0 0 1 0 0 0 0\ns 0 0 0 1\ns 3 0 0 1\n";
+    let first = hash("still.nff", still, 1);
+    assert_eq!(hash("again.nff", still, 1), first);
+    for (part, other) in [
+        ("b 0 0 0", "b 0 0 1"),
+        ("l 0 9 9", "l 9 9 0"),
+        ("f 1 0 0", "f 1 1 0"),
+        ("3 0 0 1", "3 0 0 2"),
+        ("3 0 0 1", "3 0 1 1"),
+    ] {
+        assert_ne!(hash("other.nff", &still.replace(part, other), 1), first, "{other}");
+    }
+    let moving = "1\n\nC 0 0 0\n1\n\nC 1 0 0\n";
+    let first = hash("moving.xyz", moving, 2);
+    assert_ne!(hash("other.xyz", &moving.replace("C 1", "C 2"), 2), first, "the last frame");
 }
 
 /// A film of whose frames its tracer states nothing was not judged, whatever the plan demands.

@@ -3,6 +3,7 @@
 //! files as they went in, shrink to what matters, and tell what the tracer did?
 
 use contract::{Animation, Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
+use image::GenericImageView;
 use optimized::plan::{Arithmetic, OnEvent, Packet};
 use optimized::{Form, Level, Plan};
 use std::path::{Path, PathBuf};
@@ -233,6 +234,7 @@ fn a_failing_case_shrinks_to_what_matters() {
 /// says of ids and t is in the picture.
 #[test]
 fn an_account_tells_what_the_tracer_did() {
+    let mut apart = 0;
     for arithmetic in [
         Arithmetic::Certified,
         Form::Textbook.into(),
@@ -260,6 +262,12 @@ fn an_account_tells_what_the_tracer_did() {
             told.contains(&format!("tracer's   sphere {id} at t = {t:?} (0x{:08x})", t.to_bits())),
             "{told}"
         );
+        let exact = reference::Tracer::new(reference::Arithmetic::Exact);
+        let exact = exact.render(&case.frames.frames()[0], &case.camera).expect("small").image;
+        let (sees, at) = (exact.ids[hit], exact.t[hit]);
+        let truth = format!("truth      sphere {sees} at t = {at:?} (0x{:08x})", at.to_bits());
+        assert!(told.contains(&truth), "no {truth} in {told}");
+        apart += u32::from(at.to_bits() != t.to_bits());
         for word in [
             "frustum    along -",
             "slice",
@@ -295,6 +303,7 @@ fn an_account_tells_what_the_tracer_did() {
         );
         assert!(told.contains(&format!("  sphere {id} at ")) && told.contains("alone"), "{told}");
     }
+    assert!(apart > 0, "truth and tracer never differ, and either may stand for the other");
 }
 
 /// Where a block is split, what is told is of the pixel's own ray: with culling, a plane's distance is that of its slopes.
@@ -337,4 +346,9 @@ fn a_failure_is_kept_with_its_picture_and_account() {
     assert_eq!(std::fs::read_to_string(folder.path().join("row.txt")).expect("text"), kept.account);
     let picture = image::open(folder.path().join("row.png")).expect("a picture");
     assert_eq!((picture.width(), picture.height()), (3 * 5 * 32 + 2 * 8, 5 * 24), "three panels, magnified");
+    // What came is not what was promised, and so it is shown.
+    let picture = picture.to_rgb8();
+    let [promised, came] =
+        [0, 5 * 32 + 8].map(|left| picture.view(left, 0, 5 * 32, 5 * 24).to_image().into_raw());
+    assert_ne!(promised, came, "the tracer's panel shows the promise");
 }

@@ -9,6 +9,7 @@ use verify::ablation::model::{Without, model, steps};
 use verify::ablation::{Ablation, Row, ablate, told};
 use verify::bench::contestant::{Contestant, Frame, Kind, Layers, Oath};
 use verify::bench::ours::picked;
+use verify::chart::text::text;
 use verify::chart::{Asked, Chart, Distance, Point, SCHEMA_VERSION, View, measure};
 use verify::judge::compare::compare;
 use verify::methods::{Family, Method, charted};
@@ -294,6 +295,32 @@ fn the_table_has_each_number_under_its_heading() {
     let bare = expected.map(|(heading, cell)| (heading, if colours(heading) { "" } else { cell }));
     assert_eq!(told(2), bare);
     assert!(told(3)[9..].iter().all(|(_, cell)| cell.is_empty()), "{:?}", told(3));
+}
+
+/// So has that of the terminal, from fast to slow.
+#[test]
+fn the_terminals_table_has_each_number_under_its_heading() {
+    let own = Point {
+        spu_cycles_per_ray: Some([7.5, 9.5]),
+        comparison: Some(comparison()),
+        ..point("own", Some(4.25))
+    };
+    let quick = Point { comparison: Some(comparison()), paints: false, ..point("quick", Some(2.5)) };
+    let table = text(&chart(vec![seen(vec![point("silent", None), own, quick])]));
+    let cells = |line: &str| -> Vec<String> {
+        line.split("  ").map(|cell| cell.trim().to_owned()).filter(|cell| !cell.is_empty()).collect()
+    };
+    let rows: Vec<_> = table.lines().skip(1).map(cells).filter(|row| !row.is_empty()).collect();
+    assert_eq!(
+        rows,
+        [
+            ["method", "ns a ray", "SPU cycles", "wrong ids", "ulp of t", "at most", "colours"],
+            ["quick", "2.50", "–", "33", "66", "777", "–"],
+            ["own", "4.25", "7.50-9.50", "33", "66", "777", "88"],
+            ["silent", "–", "–", "–", "–", "–", "–"],
+        ],
+        "{table}"
+    );
 }
 
 #[test]

@@ -191,6 +191,7 @@ fn gif_keeps_few_colours_and_rounds_many() {
         options.set_color_output(gif::ColorOutput::RGBA);
         let mut decoder =
             options.read_info(File::open(desk.path("film.gif")).expect("a film")).expect("a GIF");
+        assert_eq!(decoder.repeat(), gif::Repeat::Infinite, "for ever");
         let (mut delays, mut squares, mut worst, mut count) = (0, 0, 0, 0);
         for frame in 0..5 {
             desk.done(&format!("render 2juy single.png --frame {frame} --size {size} --method fast"));

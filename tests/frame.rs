@@ -3,6 +3,7 @@
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use optimized::Level;
 use reference::{Arithmetic, Ray, Tracer};
+use std::time::Duration;
 use verify::report::{Environment, Report, SCHEMA_VERSION, ScenePictures, SceneReport, html};
 use verify::run::{Frame, run};
 use verify::scenes::catalogue::Source;
@@ -10,11 +11,11 @@ use verify::scenes::frame::Framing;
 use verify::subject::{Grid, Naive, NamedPlan, Promise, Rendered, Rounding, Subject, SubjectError};
 use verify::verdict::Verdict;
 
-/// The exact picture with something done to it, under any name and promise.
+/// The exact picture with something done to it or told of it, under any name and promise.
 struct Spoilt {
     name: &'static str,
     promise: Promise,
-    spoil: fn(&mut Image),
+    spoil: fn(&mut Rendered),
 }
 
 impl Subject for Spoilt {
@@ -37,9 +38,10 @@ impl Subject for Spoilt {
         _: usize,
         _: &(dyn Fn() + Sync),
     ) -> Result<Rendered, SubjectError> {
-        let mut image = Tracer::new(Arithmetic::Exact).render(scene, camera)?.image;
-        (self.spoil)(&mut image);
-        Ok(Rendered { image, notes: Vec::new(), took: None })
+        let image = Tracer::new(Arithmetic::Exact).render(scene, camera)?.image;
+        let mut rendered = Rendered { image, notes: Vec::new(), took: None };
+        (self.spoil)(&mut rendered);
+        Ok(rendered)
     }
 }
 
@@ -111,7 +113,7 @@ fn the_first_wrong_pixel_is_told_in_full() {
     let truth = Tracer::new(Arithmetic::Exact).render(&scene, &camera).expect("small").image;
     let at = first_seen(&truth);
     assert_ne!(at % WIDTH, at / WIDTH);
-    fn spoil(image: &mut Image) {
+    fn spoil(Rendered { image, .. }: &mut Rendered) {
         let at = first_seen(image);
         (image.ids[at], image.t[at]) = (MISS, f32::INFINITY);
         (image.ids[at + 60], image.t[at + 60]) = (7, 1.5);
@@ -158,6 +160,12 @@ fn what_was_asked_and_how_fast_is_told() {
     let (seconds, speed) =
         (subject.seconds.expect("it took time"), subject.rays_per_second.expect("it has a speed"));
     assert!((seconds * speed / (48.0 * 32.0) - 1.0).abs() < 1e-9, "{seconds} s at {speed} a second");
+    // What was around it does not count for who says what it took.
+    let spoil = |rendered: &mut Rendered| rendered.took = Some(Duration::from_secs(2));
+    let timed = Spoilt { name: "timed", promise: Promise::Exact, spoil };
+    let report = told(&scene, &camera, "", &[&timed]);
+    let subject = &report.subjects[0];
+    assert_eq!((subject.seconds, subject.rays_per_second), (Some(2.0), Some(24.0 * 32.0)));
 }
 
 /// Where a promise to be the naive picture is broken, that is told, marked and shown, though the pixel is the truth's own.
@@ -205,8 +213,11 @@ fn a_twin_is_the_naive_tracers_own() {
     };
     let naive = Naive(rounding);
     let rounded = Promise::Rounded(rounding);
-    let namesake =
-        Spoilt { name: "naive-f32-perpendicular", promise: rounded, spoil: |image| image.ids.fill(3) };
+    let namesake = Spoilt {
+        name: "naive-f32-perpendicular",
+        promise: rounded,
+        spoil: |rendered| rendered.image.ids.fill(3),
+    };
     assert_eq!(namesake.name, naive.name());
     let other = Naive(Rounding::TextbookF32);
     let before: [&[&dyn Subject]; 5] =

@@ -206,10 +206,11 @@ fn a_program_that_breaks_the_protocol_is_named_and_is_no_picture() {
         ),
         ForeignError::Ended { got: 100, due: 256, .. }
     ));
-    assert!(matches!(
-        failure("silent.py", "import time; time.sleep(60)"),
-        ForeignError::Silent { got: 0, .. }
-    ));
+    // Who is given up is stopped before its time.
+    let outlived = desk.path().join("outlived");
+    let sleeps = format!("import time; time.sleep(20); open({outlived:?}, 'w').close()");
+    assert!(matches!(failure("silent.py", &sleeps), ForeignError::Silent { got: 0, .. }));
+    assert!(!outlived.exists(), "it was waited for to its end");
     assert!(matches!(
         failure("chatty.py", &broken(out, "print('tracing', flush=True), out.write(b\"d\" +")),
         ForeignError::Unexpected { said, due: 'd', .. } if said.starts_with("tracing")
@@ -249,9 +250,10 @@ fn a_program_that_breaks_the_protocol_is_named_and_is_no_picture() {
     );
 }
 
-/// A tracer that is slow in reading is not slow in tracing: what passes before `g` is not its time, all that passes after it is.
+/// A tracer that is slow in reading is not slow in tracing: what passes before `g` is not its time; all that passes after it is, whether it has
+/// said that it is done or not.
 #[test]
-fn the_clock_runs_from_go_to_done() {
+fn the_clock_runs_from_go_to_the_last_answer() {
     if !has("python3") {
         return;
     }
@@ -261,6 +263,12 @@ fn the_clock_runs_from_go_to_done() {
     for (name, from, to, counts) in [
         ("reads.py", "out.write(b\"r\")", format!("{sleep}, out.write(b\"r\")"), false),
         ("traces.py", "out.write(b\"d\" +", format!("{sleep}, out.write(b\"d\" +"), true),
+        (
+            "afterwards.py",
+            "out.write(b\"d\" +",
+            format!("out.write(b\"d\"), out.flush(), {sleep}, out.write("),
+            true,
+        ),
     ] {
         let tracer = foreign(&python(desk.path(), name, &broken(from, &to)));
         let start = Instant::now();
@@ -510,12 +518,19 @@ fn a_rust_tracer_is_judged_directly_and_as_a_program() {
     assert_ne!(judge(&scene, &camera, &truth, &image, own.promise(), None).verdict, Verdict::Wrong);
     let question = wire::question(&scene, &camera).expect("small").concat();
     let mut answer = Vec::new();
-    serve(&own, 1, &mut Cursor::new([question.clone(), question].concat()), &mut answer).expect("served");
+    serve(&own, 1, &mut Cursor::new(question.repeat(2)), &mut answer).expect("served");
     let (read, done) = ([wire::READ], [wire::DONE]);
     let ids: Vec<u8> = image.ids.iter().flat_map(|id| id.to_le_bytes()).collect();
     let t: Vec<u8> = image.t.iter().flat_map(|t| t.to_le_bytes()).collect();
     let once = [&read[..], &done, &ids, &t].concat();
     assert_eq!(answer, [once.clone(), once].concat());
+    // Who gives no picture refuses, and says why in so many bytes.
+    let absent = foreign("/nowhere/tracer");
+    let why = absent.render(&scene, &camera, 1, &|| ()).expect_err("it is not there").to_string();
+    let length = u32::try_from(why.len()).expect("short").to_le_bytes();
+    answer.clear();
+    serve(&absent, 1, &mut Cursor::new(&question), &mut answer).expect("served");
+    assert_eq!(answer, [&read[..], &[wire::REFUSED], &length, why.as_bytes()].concat());
     // A stream that is cut is no question, nor is one without its go.
     let [first, last] = wire::question(&scene, &camera).expect("small");
     for length in [3, 19, 60, 100, first.len() - 1] {
@@ -527,6 +542,13 @@ fn a_rust_tracer_is_judged_directly_and_as_a_program() {
     }
     let asked = wire::asked(&mut Cursor::new(&first)).expect("whole").expect("a question");
     assert_eq!(asked, (camera, 100));
+    // Nor is one of another protocol or of another version of it.
+    for place in [0, 4] {
+        let mut other = first.clone();
+        other[place] ^= 3;
+        let error = wire::asked(&mut Cursor::new(&other)).expect_err("another byte");
+        assert!(error.to_string().contains("`CGTQ`, version 1 is read"), "byte {place}: {error}");
+    }
     let told =
         |bytes: &[u8]| wire::told(&mut Cursor::new(bytes), 100).map(|scene| scene.spheres().len()).ok();
     assert_eq!(told(&last), Some(100));

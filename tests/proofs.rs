@@ -15,6 +15,7 @@ use verify::prove::solver::{Reply, Solver};
 use verify::prove::symbolic::{ExploreError, Lanes, MAX_DOORS, Space, Symbolic, explore};
 use verify::prove::term::{Node, Op, Sort, Term, Terms};
 use verify::prove::theorem::{Ask, Expected, Explored, Lemma, Provable, Statement, Theorem};
+use verify::report::Evidence;
 use verify::seed::{generator, seed};
 
 /// The solvers that are there; none is told.
@@ -58,6 +59,11 @@ fn claims_and_lemmas_belong_together() {
         for name in claim.lemmas {
             assert!(names.contains(name), "{name}, of: {}", claim.statement);
         }
+        // What is called proved is so by all of them, what is refuted by one at least.
+        let of = lemmas.iter().filter(|lemma| claim.lemmas.contains(&lemma.name));
+        let fails = of.filter(|lemma| lemma.expected == Expected::Fails).count();
+        assert_eq!(fails > 0, claim.evidence == Evidence::Refuted, "{}", claim.statement);
+        assert!(fails > 0 || claim.evidence == Evidence::Proved, "{}", claim.statement);
     }
     let claimed = |name: &str| CLAIMS.iter().any(|claim| claim.lemmas.contains(&name));
     assert_eq!(names.iter().find(|name| !claimed(name)), None, "belongs to no claim");

@@ -32,7 +32,7 @@ pub mod cells;
 pub mod margins;
 pub mod rounding;
 pub mod visible;
-mod watch;
+pub mod watch;
 
 pub mod fuzzed;
 

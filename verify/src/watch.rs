@@ -35,7 +35,7 @@ pub(crate) enum Note {
 }
 
 /// Who is told what a watched machine does; what does not matter to it, it leaves out.
-pub(crate) trait Listener: Copy {
+pub trait Listener: Copy {
     /// A part of the work begins.
     fn stage(self, _: Stage) {}
     /// Plain numbers do something beside the lanes.
@@ -47,10 +47,12 @@ pub(crate) trait Listener: Copy {
 }
 
 /// Computes as `values` does and tells of it.
-#[derive(Clone, Copy)]
-pub(crate) struct Watch<V, L> {
-    pub(crate) values: V,
-    pub(crate) listener: L,
+#[derive(Clone, Copy, Debug)]
+pub struct Watch<V, L> {
+    /// Who computes.
+    pub values: V,
+    /// Who is told.
+    pub listener: L,
 }
 
 /// Notes all.

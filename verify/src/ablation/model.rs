@@ -35,7 +35,7 @@ pub fn model(inputs: &[Input<'_>], seed: u64, tick: &dyn Fn()) -> Result<Vec<Wit
         whole.push(look(input, &quiet)?);
         tick();
     }
-    let expected = claims(&whole, seed);
+    let expected = claims(&whole, &[], seed);
     let mut rows = vec![Without { feature: None, frames_per_second: rates(&whole), changed: Vec::new() }];
     for feature in Feature::ALL {
         let mut looked = Vec::new();
@@ -44,7 +44,7 @@ pub fn model(inputs: &[Input<'_>], seed: u64, tick: &dyn Fn()) -> Result<Vec<Wit
             looked.push(Looked { survey, ..whole.clone() });
             tick();
         }
-        let found = without(feature, || claims(&looked, seed));
+        let found = without(feature, || claims(&looked, &[], seed));
         let changed = changed(&expected, &found);
         rows.push(Without { feature: Some(feature), frames_per_second: rates(&looked), changed });
     }

@@ -26,6 +26,8 @@ pub const ALLOWED: usize = 10_000;
 pub struct Checked {
     /// Pixels that show another sphere than the exact picture; of an exact oath also another t or colour.
     pub differing: u64,
+    /// Pixels whose sphere, t or colour is not bit for bit that of the exact picture, whatever the oath.
+    pub inexact: u64,
     /// Of all pixels those that the oath does not allow.
     pub wrong: u64,
     /// Pixels of which the oath states nothing.
@@ -41,7 +43,7 @@ impl Checked {
         match self {
             Self { wrong: 1.., .. } => Verdict::Wrong,
             Self { not_stated: 1.., .. } => Verdict::Undecidable,
-            Self { differing: 1.., .. } => Verdict::WithinBound,
+            Self { inexact: 1.., .. } => Verdict::WithinBound,
             _ => Verdict::Equal,
         }
     }
@@ -60,6 +62,7 @@ impl Checked {
     fn and(self, other: Self) -> Self {
         Self {
             differing: self.differing + other.differing,
+            inexact: self.inexact + other.inexact,
             wrong: self.wrong + other.wrong,
             not_stated: self.not_stated + other.not_stated,
             first: self.first.or(other.first),
@@ -74,17 +77,15 @@ pub fn check(scene: &Scene, camera: &Camera, truth: &Image, layers: Layers<'_>, 
     let lengths = [layers.ids.len(), layers.t.len(), layers.rgba.map_or(pixels, <[_]>::len)];
     if lengths != [pixels; 3] {
         let all = pixels as u64;
-        return Checked { differing: all, wrong: all, not_stated: 0, first: Some([0, 0]) };
+        return Checked { differing: all, inexact: all, wrong: all, not_stated: 0, first: Some([0, 0]) };
     }
     let width = camera.size().width();
     let rows = (0..camera.size().height()).into_par_iter().map(|y| {
         let mut row = Checked::default();
         for (x, i) in (0..width).zip(y as usize * width as usize..) {
+            let inexact = differs(truth, layers, i);
             let (differs, allowed) = match oath {
-                Oath::Exact => {
-                    let differs = differs(truth, layers, i);
-                    (differs, Some(!differs))
-                }
+                Oath::Exact => (inexact, Some(!inexact)),
                 Oath::Within(band) => {
                     let ray = Ray::of_pixel(camera, x, y);
                     let differs = layers.ids[i] != truth.ids[i];
@@ -96,6 +97,7 @@ pub fn check(scene: &Scene, camera: &Camera, truth: &Image, layers: Layers<'_>, 
                 }
             };
             row.differing += u64::from(differs);
+            row.inexact += u64::from(inexact);
             match allowed {
                 Some(true) => {}
                 Some(false) => {

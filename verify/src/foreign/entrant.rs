@@ -1,5 +1,5 @@
-//! A foreign tracer in charts and maps. Its time is from the judge's word to go until it says that it is done, by the judge's clock: rays before
-//! and answers after are not counted, taking the spheres and building are.
+//! A foreign tracer in charts and maps. Its time is from the judge's word to go until the last of its answers has come, by the judge's clock:
+//! rays before are not counted, taking the spheres, building, and the answers' way are.
 
 use super::{Answers, Foreign};
 use crate::bench::contestant::{Contestant, Frame, Kind, Layers, Oath};
@@ -32,7 +32,7 @@ impl Contestant for Entrant {
     }
 
     fn description(&self) -> String {
-        format!("`{}`: ids and t over a pipe, which is not timed", self.foreign.description())
+        format!("`{}`: spheres, ids and t over a pipe, which is timed with it", self.foreign.description())
     }
 
     fn kind(&self) -> Kind {

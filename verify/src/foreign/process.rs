@@ -78,11 +78,12 @@ impl Process {
         let start = Instant::now();
         self.send(last);
         self.said(DONE, "once it had traced them")?;
+        // Whoever says that it is done has its answers: until the last of them is here, the clock runs.
+        self.wait(length, "as its answers")?;
         let took = start.elapsed();
+        let bytes = self.take(length, "as its answers")?;
         // What comes later is found at the next question.
-        let bytes =
-            self.take(length, "as its answers").and_then(|bytes| self.nothing_more().map(|()| bytes))?;
-        Ok(Answer { bytes, took })
+        self.nothing_more().map(|()| Answer { bytes, took })
     }
 
     fn send(&self, bytes: Vec<u8>) {
@@ -123,6 +124,12 @@ impl Process {
 
     /// So many bytes.
     fn take(&mut self, length: usize, when: &'static str) -> Result<Vec<u8>, ForeignError> {
+        self.wait(length, when)?;
+        Ok(self.pending.drain(..length).collect())
+    }
+
+    /// Until so many bytes have come.
+    fn wait(&mut self, length: usize, when: &'static str) -> Result<(), ForeignError> {
         while self.pending.len() < length {
             match self.answers.recv_timeout(self.patience) {
                 Ok(bytes) => self.pending.extend(bytes),
@@ -136,7 +143,7 @@ impl Process {
                 }
             }
         }
-        Ok(self.pending.drain(..length).collect())
+        Ok(())
     }
 
     /// Waits for its end, then brings it about; how it ended, in words.

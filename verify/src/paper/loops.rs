@@ -1,8 +1,9 @@
 //! The loops over cells: which cells, in which order, and with how many mispredicts.
 
 use super::cases::PRINTED;
-use super::{Answer, Figured, Looked, PaperClaim, alone, asked, cheaper, proof, shown};
+use super::{Answer, Figured, Looked, PaperClaim, Proof, STEP, alone, asked, cheaper, shown};
 use crate::figures::loops::visited;
+use crate::prove::prover::Finding;
 use crate::report::Evidence;
 use crate::report::words::figure;
 use crate::spu::host::{Summing, random_slices};
@@ -17,7 +18,7 @@ use optimized::machine::Machine;
 use optimized::plan::Loop;
 use optimized::walk::{Cursor, Rectangle, step, walk};
 
-pub(super) fn claims(looked: &[Looked], seed: u64) -> Vec<PaperClaim> {
+pub(super) fn claims(looked: &[Looked], said: &[Finding], seed: u64) -> Vec<PaperClaim> {
     let nested = |claim, policy: Policy| {
         asked(claim, Evidence::Measured, looked, move |look| match of_kind(&look.survey, "nested") {
             Some(nested) => {
@@ -41,7 +42,7 @@ pub(super) fn claims(looked: &[Looked], seed: u64) -> Vec<PaperClaim> {
             }
         })
     };
-    let (printed, mended) = (proof("walk.printed.any"), proof("walk.successor"));
+    let mended = Proof::of(STEP, said);
     vec![
         alone(
             "The flattened loop as printed visits the cells of the nested loops in their order",
@@ -49,7 +50,7 @@ pub(super) fn claims(looked: &[Looked], seed: u64) -> Vec<PaperClaim> {
             printed_order(),
         )
         .against(smallest_printed())
-        .by(printed.command),
+        .by("cargo run --release -- prove walk"),
         asked("The flattened loop as printed finds the same picture", Evidence::Sampled, looked, |look| {
             let wrong = look.survey.picture.wrong_as_printed;
             ((wrong == 0).into(), format!("{wrong} pixels differ"))
@@ -57,7 +58,7 @@ pub(super) fn claims(looked: &[Looked], seed: u64) -> Vec<PaperClaim> {
         .against(PRINTED.told()),
         alone(
             "One loop can visit the cells of the nested loops in their order (mended: each slice's own bounds, k innermost, no empty slice)",
-            Evidence::Proved,
+            mended.or(Evidence::Exhausted),
             (mended_order(), mended.figure),
         )
         .by(mended.command),

@@ -2,8 +2,8 @@
 //! to see it again.
 //!
 //! In: what scenes show ([`look`]) and a seed. Out: [`PaperClaim`]s, in the order of the paper. Nothing in them is typed that can be computed:
-//! the shipped tracer, the SPU model and the judges are asked, cases of `tests/cases` are judged again, and of what solvers proved the
-//! lemmas are counted.
+//! the shipped tracer, the SPU model and the judges are asked, cases of `tests/cases` are judged again, and solvers are asked, if there are any,
+//! for the lemmas that a claim rests on: without them it rests on less, or is not shown.
 //!
 //! A claim is a question. Scenes answer it with yes or no, leave it open if both lie within the model's bracket, or have nothing to say.
 //! Only yes is *confirmed*; no without any yes *refuted*; yes on some and not on others *true under conditions*, with the scenes on
@@ -20,7 +20,11 @@ pub mod record;
 mod speed;
 pub mod text;
 
-use crate::prove::claims::CLAIMS;
+use crate::prove::claims::{CLAIMS, lemmas};
+use crate::prove::prover::{Effort, Finding, Outcome};
+use crate::prove::run::ask;
+use crate::prove::solver::Solver;
+use crate::prove::theorem::Lemma;
 use crate::report::Evidence;
 use crate::spu::survey::{Input, Survey, SurveyError, survey};
 use optimized::camera::BLOCK;
@@ -100,6 +104,17 @@ pub struct Looked {
     /// Whether one worker, two and six give the same picture.
     pub workers_agree: bool,
 }
+
+/// What is proved of a sphere narrower than cells.
+const NARROW: &[&str] = &["cell.corners.below"];
+/// Of a push onto a queue.
+const PUSH: &[&str] = &["queue.push", "queue.occupied"];
+/// Of the mended loop's step.
+const STEP: &[&str] = &["walk.successor", "walk.empty", "walk.forward"];
+/// Of slices and culling.
+const VISIBLE: &[&str] = &["visible.slice", "visible.slice.widened", "visible.planes", "visible.planes.drop"];
+/// All lemmas that claims of the paper rest on.
+pub const LEMMAS: [&[&str]; 4] = [NARROW, PUSH, STEP, VISIBLE];
 
 /// Cells on an axis that the paper's grid has at most.
 const MOST_CELLS: u8 = 16;
@@ -188,13 +203,13 @@ pub fn look(input: &Input<'_>, row_done: &dyn Fn()) -> Result<Looked, SurveyErro
     Ok(Looked { survey, sound, workers_agree: same(2)? && same(6)? })
 }
 
-/// All claims, in the order of the paper; `seed` is that of directed and random inputs.
+/// All claims, in the order of the paper; `seed` is that of directed and random inputs, `said` what solvers say ([`proofs`]).
 #[must_use]
-pub fn claims(looked: &[Looked], seed: u64) -> Vec<PaperClaim> {
+pub fn claims(looked: &[Looked], said: &[Finding], seed: u64) -> Vec<PaperClaim> {
     let mut claims = speed::claims(looked);
-    claims.extend(lists::claims(looked, seed));
-    claims.extend(loops::claims(looked, seed));
-    claims.extend(pictures::claims(looked));
+    claims.extend(lists::claims(looked, said, seed));
+    claims.extend(loops::claims(looked, said, seed));
+    claims.extend(pictures::claims(looked, said));
     claims.extend(memory::claims(looked));
     claims
 }
@@ -278,22 +293,41 @@ impl PaperClaim {
     }
 }
 
-/// A claim of [`crate::prove`]: whether it is one that was proved, what stands beside it, and the command that proves it.
+/// Lemmas of [`crate::prove`] on which a claim rests: whether solvers have proved all of them in this run, what stands beside them, and the
+/// command that proves them.
 struct Proof {
-    answer: Answer,
+    proved: bool,
     figure: String,
     command: String,
 }
 
-/// The claim that rests on a lemma.
-fn proof(lemma: &str) -> Proof {
-    let claim = CLAIMS.iter().find(|claim| claim.lemmas.contains(&lemma));
-    let silent = Proof { answer: Answer::Silent, figure: String::new(), command: HOW.into() };
-    claim.map_or(silent, |claim| Proof {
-        answer: (claim.evidence == Evidence::Proved).into(),
-        figure: claim.figure(),
-        command: claim.command(),
-    })
+impl Proof {
+    fn of(lemmas: &[&str], said: &[Finding]) -> Self {
+        let proved = |name: &&str| {
+            let is =
+                |one: &Finding| one.name == *name && one.outcome == Outcome::Proved && one.wrong.is_empty();
+            said.iter().any(is)
+        };
+        let proved = lemmas.iter().all(proved);
+        let claim = CLAIMS.iter().find(|claim| lemmas.iter().all(|name| claim.lemmas.contains(name)));
+        let (figure, command) =
+            claim.map_or((String::new(), HOW.into()), |claim| (claim.figure(), claim.command()));
+        let figure = if proved { figure } else { format!("not proved in this run; {figure}") };
+        Self { proved, figure, command }
+    }
+
+    /// What a claim rests on that has something else beside the proof.
+    fn or(&self, else_on: Evidence) -> Evidence {
+        if self.proved { Evidence::Proved } else { else_on }
+    }
+}
+
+/// What solvers, if any are there, say of the lemmas that the paper's claims rest on.
+#[must_use]
+pub fn proofs(solvers: &[Solver], seed: u64, tick: &(dyn Fn() + Sync)) -> Vec<Finding> {
+    let wanted = |lemma: &Lemma| LEMMAS.iter().any(|names| names.contains(&lemma.name));
+    let lemmas: Vec<Lemma> = lemmas().into_iter().filter(wanted).collect();
+    ask(&lemmas, solvers, &Effort::EVERYDAY, seed, tick)
 }
 
 fn percent(part: u64, of: u64) -> f64 {

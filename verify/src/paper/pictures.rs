@@ -1,7 +1,8 @@
 //! Pictures, and what culling and mailboxes buy.
 
 use super::cases::{FAR, LETTER};
-use super::{Answer, Looked, PaperClaim, alone, asked, cheaper, percent, proof, several, shown};
+use super::{Answer, Looked, PaperClaim, Proof, VISIBLE, alone, asked, cheaper, percent, several, shown};
+use crate::prove::prover::Finding;
 use crate::report::Evidence;
 use crate::report::words::figure;
 use crate::scenes::catalogue::Source;
@@ -10,8 +11,8 @@ use contract::{Image, Scene, Size};
 use optimized::plan::{Arithmetic, Cells, Margins, Plan, Resolution, Voxelizer};
 use optimized::{Form, Level, Tracer};
 
-pub(super) fn claims(looked: &[Looked]) -> Vec<PaperClaim> {
-    let visible = proof("visible.slice");
+pub(super) fn claims(looked: &[Looked], said: &[Finding]) -> Vec<PaperClaim> {
+    let visible = Proof::of(VISIBLE, said);
     let [textbook, perpendicular] = [Form::Textbook, Form::Perpendicular].map(from_afar);
     vec![
         asked("Culling cuts tests 4 to 8 times", Evidence::Measured, looked, |look| {
@@ -42,8 +43,8 @@ pub(super) fn claims(looked: &[Looked]) -> Vec<PaperClaim> {
         }),
         alone(
             "Slices and culling lose nothing that a ray of the packet hits, but for rounding",
-            Evidence::Proved,
-            (visible.answer, visible.figure),
+            visible.or(Evidence::NotShown),
+            (if visible.proved { Answer::Yes } else { Answer::Silent }, visible.figure),
         )
         .by(visible.command),
         asked("The picture is that of one loop over all spheres", Evidence::Sampled, looked, |look| {

@@ -54,16 +54,7 @@ pub fn run(
     let effort = if long { Effort::LONG } else { Effort::EVERYDAY };
     let (lemmas, left_out): (Vec<Lemma>, Vec<Lemma>) =
         lemmas().into_iter().filter(wanted).partition(|lemma| long || !lemma.long);
-    let findings: Vec<Finding> = lemmas
-        .par_iter()
-        .enumerate()
-        .with_max_len(1)
-        .map(|(i, lemma)| {
-            let finding = prove(lemma, solvers, &effort, &mut generator(seed, i as u64));
-            tick();
-            finding
-        })
-        .collect();
+    let findings = ask(&lemmas, solvers, &effort, seed, tick);
     let faults = kernels(&lemmas)
         .into_par_iter()
         .enumerate()
@@ -92,6 +83,23 @@ pub fn run(
     }
 }
 
+/// What solvers say of lemmas; no kernel is broken for it.
+#[must_use]
+pub fn ask(
+    lemmas: &[Lemma],
+    solvers: &[Solver],
+    effort: &Effort,
+    seed: u64,
+    tick: &(dyn Fn() + Sync),
+) -> Vec<Finding> {
+    let one = |(i, lemma): (usize, &Lemma)| {
+        let finding = prove(lemma, solvers, effort, &mut generator(seed, i as u64));
+        tick();
+        finding
+    };
+    lemmas.par_iter().enumerate().with_max_len(1).map(one).collect()
+}
+
 /// Lemmas that hold, by the kernel they are about.
 #[must_use]
 pub fn kernels(lemmas: &[Lemma]) -> Vec<Vec<&Lemma>> {
@@ -110,10 +118,16 @@ fn found(claim: &Claim, findings: &[Finding]) -> Found {
     let all: Option<Vec<&Finding>> = claim.lemmas.iter().map(|name| of(name)).collect();
     let found = all.and_then(|all| {
         let judged = all.iter().all(|finding| finding.outcome != Outcome::NotJudged);
-        let shown = all.iter().all(|finding| {
-            finding.wrong.is_empty() && matches!(finding.outcome, Outcome::Proved | Outcome::Refuted(_))
-        });
-        judged.then_some(if shown { claim.evidence } else { Evidence::NotShown })
+        let proved = |finding: &&Finding| finding.outcome == Outcome::Proved;
+        let told = |finding: &&Finding| proved(finding) || matches!(finding.outcome, Outcome::Refuted(_));
+        let found = if !all.iter().all(|finding| finding.wrong.is_empty() && told(&finding)) {
+            Evidence::NotShown
+        } else if all.iter().all(proved) {
+            Evidence::Proved
+        } else {
+            Evidence::Refuted
+        };
+        judged.then_some(found)
     });
     Found { statement: claim.statement, promised: claim.evidence, found }
 }

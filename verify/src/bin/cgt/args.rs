@@ -629,7 +629,8 @@ pub(crate) enum Method {
 
 #[derive(Args, Clone, Debug, Default)]
 pub(crate) struct View {
-    /// Pixels, from 1x1 to 16384 on a side [default: the scene's own, else 1280x720]
+    /// Pixels, from 1x1 to 16384 on a side [default: the scene's own, else 1280x720; of `chart` 320x180 then, of `ablate` 640x360, and of
+    /// `figures` always 320x180]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(crate) size: Option<Size>,
     /// Where to stand [default: chosen so that the scene fills the picture]

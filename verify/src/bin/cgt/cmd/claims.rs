@@ -10,8 +10,10 @@ use rayon::prelude::*;
 use std::process::ExitCode;
 use verify::paper::record::{Record, SCENES, SCHEMA_VERSION};
 use verify::paper::text::text;
-use verify::paper::{Looked, claims, look, ticks};
+use verify::paper::{LEMMAS, Looked, claims, look, proofs, ticks};
 use verify::picture::{check_file, write_atomically};
+use verify::prove::prover::Finding;
+use verify::prove::solver::Solver;
 use verify::scenes::catalogue::{Source, SourceError};
 use verify::seed::seed;
 use verify::spu::survey::Input;
@@ -39,9 +41,14 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         scenes.push((word, scene, camera));
     }
     let looked = all(args, &scenes)?;
-    let seed = seed();
-    let claims = claims(&looked, seed);
+    let (solvers, seed) = (Solver::all(), seed());
+    let said = said(&solvers, seed);
+    let claims = claims(&looked, &said, seed);
     say(&format!("CGT_SEED={seed}\n{}", text(&claims)))?;
+    if solvers.is_empty() {
+        say("not judged: proofs: no solver was found; tests/fetch-solvers brings two\n")?;
+        absent += 1;
+    }
     let size =
         scenes.first().map_or([0; 2], |(_, _, camera)| [camera.size().width(), camera.size().height()]);
     let mut environment = environment(args.view.threads(), &[]);
@@ -63,6 +70,13 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         write_atomically(file, record.markdown().as_bytes())?;
     }
     Ok(if absent == 0 { ExitCode::SUCCESS } else { ExitCode::from(NO_VERDICT) })
+}
+
+/// What the solvers say of the lemmas that claims rest on.
+pub(crate) fn said(solvers: &[Solver], seed: u64) -> Vec<Finding> {
+    let lemmas: usize = LEMMAS.iter().map(|names| names.len()).sum();
+    let tick = progress::bar("claims", "lemmas", u32::try_from(lemmas).unwrap_or(u32::MAX));
+    proofs(solvers, seed, &*tick)
 }
 
 fn names(args: &Args) -> Vec<String> {

@@ -17,6 +17,7 @@ use verify::paper::claims as judge_claims;
 use verify::paper::page::part as paper_part;
 use verify::paper::record::{self, Record};
 use verify::picture::{check_folder, write_atomically};
+use verify::prove::prover::Finding;
 use verify::prove::run::{Proofs, run as prove};
 use verify::prove::solver::Solver;
 use verify::report::{Absent, Module, Part, Report, SCHEMA_VERSION, overall, text, write};
@@ -173,8 +174,18 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
         broken.extend(ablated.broken_promises());
         parts.push(part("ablation", "What each choice buys", ablation::page::part(&ablated)?));
     }
+    let solvers = Solver::all();
+    let proved = wanted("proofs").then(|| {
+        chapter("proofs");
+        let questions = Proofs::questions(false, |_| true);
+        let tick = progress::bar("prove", "lemmas and kernels", u32::try_from(questions).unwrap_or(u32::MAX));
+        prove(|_| true, false, &solvers, seed(), &*tick)
+    });
     if wanted("paper") {
-        let (paper, machine) = paper(folder, names, args.threads)?;
+        chapter("the paper's claims");
+        let said =
+            proved.as_ref().map_or_else(|| claims::said(&solvers, seed()), |proved| proved.lemmas.clone());
+        let (paper, machine) = paper(folder, names, &said, args.threads)?;
         parts.push(part("paper", "The paper's claims, one by one", paper));
         parts.push(part("spu", "The paper's machine", machine));
     }
@@ -194,26 +205,25 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
         broken.extend(benched.broken_promises());
         parts.push(part("bench", "How fast", verify::bench::page::part(&benched)?));
     }
-    if wanted("proofs") {
-        chapter("proofs");
-        let solvers = Solver::all();
-        let questions = Proofs::questions(false, |_| true);
-        let tick = progress::bar("prove", "lemmas and kernels", u32::try_from(questions).unwrap_or(u32::MAX));
-        let proved = prove(|_| true, false, &solvers, seed(), &*tick);
+    if solvers.is_empty() && (wanted("proofs") || wanted("paper")) {
+        let why = "No solver was found; tests/fetch-solvers brings two.".into();
+        absent.push(Absent { judge: "Proofs".into(), why, needed: false });
+    }
+    if let Some(proved) = proved {
         files::data("prove", folder, &proved, None)?;
         broken.extend(proved.wrong());
-        if solvers.is_empty() {
-            let why = "No solver was found; tests/fetch-solvers brings two.".into();
-            absent.push(Absent { judge: "Proofs".into(), why, needed: false });
-        }
         parts.push(part("proofs", "Proved", proofs::page::part(&proved)?));
     }
     Ok(Chapters { parts, broken, absent })
 }
 
 /// The paper's claims on these scenes, and what a frame of them costs on its machine.
-fn paper(folder: &Path, names: &[String], threads: u16) -> Result<(String, String), Failure> {
-    chapter("the paper's claims");
+fn paper(
+    folder: &Path,
+    names: &[String],
+    said: &[Finding],
+    threads: u16,
+) -> Result<(String, String), Failure> {
     // At the paper's own size, of whose blocks some stand for all.
     let view = args::View { threads, ..args::View::default() };
     let asked = args::Claims { scenes: names.to_vec(), sample: SAMPLE, json: None, markdown: None, view };
@@ -233,7 +243,7 @@ fn paper(folder: &Path, names: &[String], threads: u16) -> Result<(String, Strin
         size: [scenes[0].2.size().width(), scenes[0].2.size().height()],
         sample: SAMPLE,
         scenes: names.to_vec(),
-        claims: judge_claims(&looked, seed),
+        claims: judge_claims(&looked, said, seed),
     };
     files::data("claims", folder, &found, None)?;
     chapter("the paper's machine");
