@@ -448,11 +448,9 @@ fn every_command_of_the_page_runs() {
         report["scenes"][0]["subjects"].as_array().expect("subjects").iter().map(|subject| &subject["name"]);
     assert!(names.into_iter().any(|name| name == "mine"), "{report}");
     // What stands in the page is what is read.
-    for (byte, what) in [
-        (wire::READ, "it has read all of it"),
-        (wire::GO, "go, the clock runs"),
-        (wire::DONE, "done, the clock stops"),
-    ] {
+    for (byte, what) in
+        [(wire::READ, "it has read all of it"), (wire::GO, "go, the clock runs"), (wire::DONE, "done")]
+    {
         assert!(page.contains(&format!("| 1 | `{}`: {what} |", char::from(byte))), "{what}");
     }
 }
