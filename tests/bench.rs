@@ -10,12 +10,12 @@ use tempfile::TempDir;
 use verify::bench::baseline::{BaselineError, Step, compare};
 use verify::bench::check::{Checked, check};
 use verify::bench::contestant::{Contestant, Frame, Kind, Layers, Oath};
-use verify::bench::data::{Curve, Point, SCHEMA_VERSION, Truth};
+use verify::bench::data::{Curve, Growth, Point, SCHEMA_VERSION, Truth};
 use verify::bench::rounds::Timing;
 use verify::bench::scene::race;
 use verify::bench::spread::Spread;
-use verify::bench::text::text;
-use verify::bench::{Bench, Effort, Input, Row, SceneBench, Summary};
+use verify::bench::text::{sentences, text};
+use verify::bench::{Bench, Effort, Input, Row, SceneBench, Summary, page};
 use verify::report::{Absent, Environment};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
@@ -763,6 +763,100 @@ fn the_table_tells_times_by_those_of_the_subject() {
         for (word, expected) in told(name).iter().zip(expected) {
             assert!((number(word) / expected - 1.0).abs() < 1e-3, "{name}: {word} for {expected}: {table}");
         }
+    }
+}
+
+/// Cells of a row of the page's first table under their headings, but for the verdict's seal.
+fn cells<'a>(page: &'a str, row: &str) -> Vec<(&'a str, &'a str)> {
+    fn word(text: &str) -> &str {
+        text.split(['>', '<']).nth(1).unwrap_or_default()
+    }
+    let head = page.lines().find(|line| line.starts_with("<thead>")).expect("a table");
+    let row = page.lines().find(|line| line.contains("<th scope=\"row\"") && line.contains(row));
+    let row = row.unwrap_or_else(|| panic!("no row: {page}"));
+    let headings = head.split("<th scope=\"col\"").skip(2).map(word);
+    headings.zip(row.split("<td").skip(1).map(word)).skip(1).collect()
+}
+
+/// Each number another, so that none can stand for another.
+#[test]
+fn page_and_terminal_have_each_number_under_its_heading() {
+    let spread = |unit: f64| Spread {
+        least: unit,
+        lower_quartile: 2.0 * unit,
+        median: 3.0 * unit,
+        upper_quartile: 4.0 * unit,
+        most: 5.0 * unit,
+    };
+    let peer = Row {
+        differing: 700,
+        wrong: 33,
+        timing: Some(Timing { frames: 9, build: spread(1e-3), trace: spread(1e-2), total: spread(0.1) }),
+        mega_rays_per_second: Some(12.5),
+        ..row(Kind::Peer, Verdict::WithinBound, 1.0)
+    };
+    let mut bench = made_up(vec![scene(vec![row(Kind::Subject, Verdict::Equal, 0.15), peer])], Vec::new());
+    bench.summary = Summary {
+        ratio_to_embree_mean: Some(12.5),
+        ratio_to_embree_least: Some(11.5),
+        ratio_to_limit_mean: Some(1.5),
+        ratio_to_limit_most: Some(1.75),
+        ratio_to_picked_most: Some(1.25),
+    };
+    let shown = page(&bench).expect("filled in");
+    let expected = [
+        ("differing pixels", "700"),
+        ("wrong pixels", "33"),
+        ("build", "3.00 ms"),
+        ("trace", "30.0 ms"),
+        ("frame, median", "300 ms"),
+        ("lower quartile", "200 ms"),
+        ("upper quartile", "400 ms"),
+        ("frames", "9"),
+        ("Mray/s", "12.5"),
+        ("times the subject's", "2.00"),
+    ];
+    assert_eq!(cells(&shown, ">peer</th>"), expected);
+    for (value, what) in [
+        ("12.5", "times as fast as Embree, geometric mean"),
+        ("11.5", "times at least"),
+        ("1.50", "times the clairvoyant's time, geometric mean"),
+        ("1.75", "times at most"),
+        ("1.25", "times the best plan's time at most"),
+    ] {
+        let what = what.replace('\'', "&#39;");
+        assert!(shown.contains(&format!("<b>{value}</b> {what}</li>")), "{value} {what}: {shown}");
+    }
+    let table = text(&bench, false);
+    let line = table.lines().find(|line| line.starts_with("made-up peer")).expect("a line of its own");
+    let words: Vec<&str> = line.split_whitespace().collect();
+    assert_eq!(words.join(" "), "made-up peer ≈ within bound 700 3.00 ms 30.0 ms 33.3 12.5 2.00");
+}
+
+/// What is wanted at most is missed above it, what is wanted at least below it.
+#[test]
+fn who_misses_what_is_wanted_is_told_so() {
+    for (factor, at_least, holds) in
+        [(10.0, false, true), (12.0, false, false), (12.0, true, true), (10.0, true, false)]
+    {
+        let mut bench = made_up(vec![subject(Verdict::Equal)], Vec::new());
+        let growth =
+            Growth { what: "rebuild".into(), between: [10.0, 100.0], factor, wanted: 11.0, at_least };
+        bench.curves[0].growth.push(growth);
+        let said = sentences(&bench).join("\n");
+        let told = format!(
+            "rebuild from 10 to 100: {factor:.1} times, at {} 11.0 is wanted{}",
+            if at_least { "least" } else { "most" },
+            if holds { "." } else { ": MISSED." }
+        );
+        assert!(said.contains(&told), "{told}: {said}");
+    }
+    // A plan that is chosen from the scene alone may take 1.15 times what the best takes.
+    for (ratio, missed) in [(1.1, false), (1.3, true)] {
+        let scene = SceneBench { ratio_to_picked: Some(ratio), ..subject(Verdict::Equal) };
+        let said = sentences(&made_up(vec![scene], Vec::new())).join("\n");
+        assert!(said.contains("best plan picked by hand: at most 1.") && said.contains("1.15 is wanted"));
+        assert_eq!(said.contains("MISSED"), missed, "{ratio}: {said}");
     }
 }
 

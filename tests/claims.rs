@@ -98,7 +98,7 @@ fn verdicts_turn_with_the_figures() {
     for kind in &mut better.loops {
         kind.walk = if kind.walk == "nested" { "flattened" } else { "nested" };
         for policy in &mut kind.policies {
-            policy.per_branch = 1.0 - policy.per_branch;
+            policy.per_branch = policy.per_branch.map(|share| 1.0 - share);
         }
     }
     other.sound = if found.sound.is_empty() { vec![4] } else { Vec::new() };

@@ -9,13 +9,15 @@ use optimized::grid::{Grid, Memory};
 use optimized::host::Scalar;
 use optimized::plan::{Cells, Loop, Plan, Voxelizer};
 use optimized::seen::{Seen, Worker};
-use optimized::{Events, Level, Tracer};
+use optimized::{Event, Events, Level, Tracer};
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
+use std::time::Instant;
 use verify::case::Case;
 use verify::figures::block::{Fate, Walked, chosen, walked};
 use verify::figures::corners::Cell;
-use verify::figures::screen::timed;
+use verify::figures::loops::Loops;
+use verify::figures::screen::{draw, timed};
 use verify::figures::{Figure, FigureError, Input, alone, corners, figures, loops, traced};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
@@ -66,6 +68,32 @@ fn number(node: &Node<'_, '_>, name: &str) -> f64 {
     let text = node.attribute(name).unwrap_or_else(|| panic!("no {name}"));
     text.parse().unwrap_or_else(|_| panic!("{name} is {text}"))
 }
+
+/// Holds the numbers of a caption, in their order, against what they should be; of those that are not whole it has three digits.
+fn tells(caption: &str, due: &[f64]) {
+    let plain = caption.replace('\u{202f}', "");
+    let words = plain.split(|c: char| !c.is_ascii_digit() && c != '.').map(|word| word.trim_matches('.'));
+    let told: Vec<f64> = words.filter_map(|word| word.parse().ok()).collect();
+    let near = |(told, due): (&f64, &f64)| {
+        let error = if due.fract() == 0.0 { 0.0 } else { 5e-3 * due };
+        (told - due).abs() <= error
+    };
+    let same = told.len() == due.len() && told.iter().zip(due).all(near);
+    assert!(same, "{due:?} is not what stands in: {caption}");
+}
+
+/// Whether a node is a shape of a kind and a class; if so, its numbers.
+fn shape<const N: usize>(
+    node: &Node<'_, '_>,
+    tag: &str,
+    of: &[&str],
+    numbers: [&str; N],
+) -> Option<[f64; N]> {
+    let is = node.tag_name().name() == tag && classes(*node).any(|class| of.contains(&class));
+    is.then(|| numbers.map(|name| number(node, name)))
+}
+
+const CIRCLE: [&str; 3] = ["cx", "cy", "r"];
 
 #[test]
 fn figures_are_well_formed_and_can_be_read() {
@@ -142,13 +170,13 @@ fn figures_are_well_formed_and_can_be_read() {
 /// The block's cells, spheres and fates are those that the tracer itself counts, drawn once in each view.
 #[test]
 fn marked_cells_and_spheres_are_those_the_packet_counted() {
-    let (mut cells, mut culled) = (0, 0);
+    let (mut cells, mut culled, mut ends) = (0, 0, 0);
     for (word, paper) in VIEWS {
         let (scene, camera) = view(word, [96, 54]);
         let input = input(word, &scene, &camera, paper);
         let Blocks { seen, blocks } = traced(&input, &|| ()).expect("a model");
         let at = chosen(&input, &blocks).expect("a block");
-        let Walked { cells: visited, met, counts, slices, .. } =
+        let Walked { cells: visited, met, counts, slices, heading, .. } =
             walked(&seen, &scene, &camera, at).expect("it walks");
         // By the scalar machine, which nothing watches.
         let (xs, ys) = middles(Scalar, &camera, at[0], at[1]);
@@ -190,11 +218,40 @@ fn marked_cells_and_spheres_are_those_the_packet_counted() {
             assert_eq!(count(&document, "circle", class), 2 * fate(of).len() + 1, "{word}: {class}");
         }
         assert_eq!(count(&document, "line", "ray"), 2 * 16 + 1);
+        let distinct = |cells: &[[i32; 3]]| cells.iter().map(|cell| cell[0]).collect::<BTreeSet<_>>().len();
+        let grid = seen.grid.as_ref().expect("a grid");
+        tells(
+            &named(&all, "frustum").caption,
+            &[
+                f64::from(at[0]),
+                f64::from(at[1]),
+                distinct(&whole) as f64,
+                f64::from(grid.axes[heading.order[0]].n),
+                distinct(&visited) as f64,
+                worker.counts.cells as f64,
+                worker.counts.candidates as f64,
+                met.len() as f64,
+                fate(Fate::Culled).len() as f64,
+                fate(Fate::InVain).len() as f64,
+                owners.len() as f64,
+            ],
+        );
+        // Where a ray ends it meets a sphere that is seen, from both sides: not outside of its outline.
+        let seen: Vec<[f64; 3]> =
+            document.descendants().filter_map(|node| shape(&node, "circle", &["seen"], CIRCLE)).collect();
+        for [x, y, _] in document.descendants().filter_map(|node| shape(&node, "circle", &["end"], CIRCLE)) {
+            let within = |[cx, cy, r]: &[f64; 3]| (x - cx).hypot(y - cy) <= r + 0.1;
+            assert!(seen.iter().any(within), "{word}: no sphere at ({x}, {y}): {seen:?}");
+            ends += 1;
+        }
         cells += visited.len();
         culled += fate(Fate::Culled).len();
         eprintln!("{word}: block {at:?}, {} cells, {} spheres", visited.len(), met.len());
     }
-    assert!(cells > 20 && culled > 5, "{cells} cells, {culled} culled: too little was at stake");
+    assert!(
+        cells > 20 && culled > 5 && ends > 20,
+        "{cells} cells, {culled} culled, {ends} ends: too little was at stake"
+    );
 }
 
 /// In every block the marked cells are as many as its packet counted, also where the walk passes slices of which it sees no cell.
@@ -244,10 +301,47 @@ fn holders(grid: &Grid, id: u32) -> BTreeSet<[usize; 3]> {
     cells
 }
 
+/// In each slice the cells that the ball meets are those whose squares its section meets. How many squares were judged.
+fn sections_meet_their_cells(document: &Document<'_>) -> usize {
+    let (mut squares, mut section) = (Vec::<(bool, [f64; 4])>::new(), None::<[f64; 3]>);
+    let (mut border, mut judged) = (false, 0);
+    for node in document.descendants().filter(Node::is_element) {
+        // Words stand before each slice, and before each entry of the legend but its sign.
+        if node.has_tag_name(("http://www.w3.org/2000/svg", "text")) {
+            for (is_met, [x, y, width, height]) in squares.drain(..).filter(|_| border) {
+                let Some([cx, cy, r]) = section else {
+                    assert!(!is_met, "a square at ({x}, {y}) is met by nothing");
+                    continue;
+                };
+                let apart =
+                    |center: f64, low: f64, long: f64| (low - center).max(center - low - long).max(0.0);
+                let apart = apart(cx, x, width).hypot(apart(cy, y, height));
+                // Places are drawn to a hundredth of a pixel.
+                let is_clear = (apart - r).abs() > 0.1;
+                assert!(
+                    !is_clear || is_met == (apart < r),
+                    "{is_met}: ({x}, {y}) is {apart} from a disc of {r}"
+                );
+                judged += usize::from(is_clear);
+            }
+            (border, section) = (false, None);
+        }
+        border |= shape(&node, "rect", &["border"], []).is_some();
+        let place = ["x", "y", "width", "height"];
+        if !border {
+            let met = shape(&node, "rect", &["right", "missed"], place).map(|square| (true, square));
+            squares.extend(met.or(shape(&node, "rect", &["needless"], place).map(|square| (false, square))));
+        } else if let Some(circle) = shape(&node, "circle", &["section"], CIRCLE) {
+            section = Some(circle);
+        }
+    }
+    judged
+}
+
 /// What eight corners miss is what the tracer's own overlap in f64 lists and they do not; over all spheres, what `listed` counts.
 #[test]
 fn missed_cells_are_the_overlap_less_what_is_listed() {
-    let mut missed = BTreeMap::new();
+    let (mut missed, mut judged) = (BTreeMap::new(), 0);
     for (word, paper) in VIEWS {
         let (scene, camera) = view(word, [64, 36]);
         let input = input(word, &scene, &camera, paper);
@@ -258,16 +352,30 @@ fn missed_cells_are_the_overlap_less_what_is_listed() {
         let (own, overlap) = (own.grid.expect("a grid"), overlap.grid.expect("a grid"));
         assert_eq!(found.missed, listed(&own, &scene).missing, "{word}");
         let kept = seen(&input, input.plan).grid.expect("a grid");
+        let mut due = vec![scene.spheres().len() as f64];
+        due.extend(kept.axes.iter().map(|axis| f64::from(axis.n)));
         for ball in [Some(&found.large), found.small.as_ref()].into_iter().flatten() {
-            let (own, overlap) = (holders(&own, ball.id), holders(&overlap, ball.id));
+            let [own, overlap, kept] = [&own, &overlap, &kept].map(|grid| holders(grid, ball.id));
             let cells = |so: &dyn Fn(&Cell) -> bool| {
                 ball.cells.iter().filter(|(_, cell)| so(cell)).map(|(at, _)| *at).collect::<BTreeSet<_>>()
             };
             let less = |x: &BTreeSet<[usize; 3]>, y| x.difference(y).copied().collect::<BTreeSet<_>>();
             assert_eq!(cells(&Cell::is_missed), less(&overlap, &own), "{word}, sphere {}", ball.id);
             assert_eq!(cells(&Cell::is_needless), less(&own, &overlap), "{word}, sphere {}", ball.id);
-            assert_eq!(cells(&Cell::is_pushed_out), less(&own, &holders(&kept, ball.id)), "{word}");
+            assert_eq!(cells(&Cell::is_pushed_out), less(&own, &kept), "{word}");
             assert_eq!(cells(&|cell: &Cell| cell.listed), own);
+            let pushed = less(&own, &kept).len();
+            let numbers = [overlap.len(), own.len(), less(&own, &overlap).len(), less(&overlap, &own).len()];
+            due.extend([f64::from(ball.id), f64::from(ball.sphere.radius)]);
+            due.extend(numbers.into_iter().chain((pushed > 0).then_some(pushed)).map(|n| n as f64));
+        }
+        due.push(found.missed as f64);
+        // Told of eight corners alone, which need that there is none.
+        if input.plan.voxelizer == Voxelizer::EightCorners {
+            let events =
+                Tracer::new(input.plan, Level::SCALAR).render(&scene, &camera).expect("it goes on").events;
+            let spans = |event: &&Event| matches!(event, Event::SpansCells { .. });
+            due.push(events.first().iter().filter(spans).count() as f64);
         }
         let all = figures(&input, &|| ()).expect("it can be drawn");
         let document = Document::parse(&named(&all, "corners").svg).expect("well-formed");
@@ -278,6 +386,8 @@ fn missed_cells_are_the_overlap_less_what_is_listed() {
         assert_eq!(count(&document, "rect", "missed"), both(&Cell::is_missed) + 1, "{word}");
         assert_eq!(count(&document, "rect", "needless"), both(&Cell::is_needless) + 1, "{word}");
         assert_eq!(count(&document, "line", "pushed"), 2 * both(&Cell::is_pushed_out) + 1, "{word}");
+        tells(&named(&all, "corners").caption, &due);
+        judged += sections_meet_their_cells(&document);
         eprintln!(
             "{word}, {}: {} missed over all, {} of sphere {}",
             input.plan.voxelizer as u8,
@@ -289,6 +399,7 @@ fn missed_cells_are_the_overlap_less_what_is_listed() {
     }
     assert!(missed[&("1hvr", true)] > 0, "the paper's plan misses cells of the molecule");
     assert!(missed[&("sphereflake:3", true)] > 0 && missed[&("1hvr", false)] == 0);
+    assert!(judged > 100, "{judged} squares: too little was at stake");
 }
 
 /// Both loops have one path, the printed one another; and the drawing marks just that.
@@ -333,6 +444,21 @@ fn both_loops_have_one_path_and_the_printed_one_another() {
         eprintln!("{word}: {nested:?}; as printed {printed:?}");
     }
     assert!(astray >= 3, "the printed loop goes astray in {astray} packets");
+}
+
+/// Five cells of two slices; as printed two visits of no cell, three out of order, and one cell missed.
+#[test]
+fn a_caption_tells_how_far_astray_a_loop_goes() {
+    let (scene, camera) = view("uniform:50:1", [40, 24]);
+    let nested = vec![[0, 0, 0], [0, 0, 1], [0, 1, 0], [0, 1, 1], [1, 0, 0]];
+    let printed = [[0, 0, 0], [0, 0, 1], [0, 0, 2], [0, 1, 0], [0, 2, 0], [0, 1, 1], [0, 0, 0]];
+    let drawn = Loops {
+        from: 4,
+        slices: vec![[0, 1, 0, 1], [0, 0, 0, 0]],
+        visits: [nested.clone(), nested, printed.to_vec()],
+    };
+    let caption = loops::draw(&input("by hand", &scene, &camera, true), &drawn).caption;
+    tells(&caption, &[4.0, 5.0, 5.0, 5.0, 7.0, 2.0, 3.0, 1.0]);
 }
 
 /// One run of a map's path: column, row, blocks.
@@ -393,8 +519,42 @@ fn the_screen_shows_every_block_and_stripe() {
     assert!(by_shade.values().is_sorted_by(|one, other| one[1] < other[0]));
     assert_eq!(count(&document, "rect", "bar"), 13);
     assert_eq!(count(&document, "rect", "chosen"), 1);
+    let start = Instant::now();
     let times = timed(&input).expect("a picture");
+    let whole = start.elapsed().as_secs_f64() * 1e6;
     assert!(times.len() == 13 && times.iter().all(|time| *time > 0.0 && time.is_finite()));
+    // Of each stripe's five runs three took at least as long as is told.
+    assert!(3.0 * times.iter().sum::<f64>() <= whole, "{times:?} µs, all in {whole} µs");
+}
+
+/// Bars are as long as the times that are given, and the caption has these and the cycles.
+#[test]
+fn bars_are_as_long_as_their_times() {
+    let (scene, camera) = view("1hvr", [90, 50]);
+    let input = Input { level: Level::SCALAR, ..input("a molecule", &scene, &camera, true) };
+    let Blocks { blocks, .. } = traced(&input, &|| ()).expect("a model");
+    let times: Vec<f64> = (1..=13).map(|k| 10.0 * f64::from(k)).collect();
+    let drawn = draw(&input, &blocks, &times, [4, 8]);
+    let document = Document::parse(&drawn.svg).expect("well-formed");
+    let bar = |node| shape(&node, "rect", &["bar"], ["y", "width"]);
+    let bars: Vec<[f64; 2]> = document.descendants().filter_map(bar).collect();
+    assert!(bars.len() == 13 && bars.is_sorted_by(|one, other| one[0] < other[0]), "{bars:?}");
+    for ([_, width], time) in bars.iter().zip(&times) {
+        assert!((width / bars[12][1] - time / 130.0).abs() < 1e-3, "{width} for {time} µs: {bars:?}");
+    }
+    let cycles: Vec<u64> = blocks.iter().map(|block| block.booked.dependence_bound(Policy::Hinted)).collect();
+    let most = cycles.iter().max().expect("blocks");
+    // Of equals the last.
+    let dearest = cycles.iter().rposition(|cycles| cycles == most).expect("it is one of them");
+    let dearest = [dearest % 23 * 4, dearest / 23 * 4];
+    let split = blocks.iter().filter(|block| block.counts.split_blocks > 0).count();
+    let mut due = vec![23.0 * 13.0, 4.0, 4.0, 13.0];
+    due.extend(cycles.iter().min().map(|least| *least as f64));
+    due.extend([*most as f64, (cycles.iter().sum::<u64>() / 299) as f64]);
+    due.extend(dearest.map(|pixel| pixel as f64));
+    due.extend((split > 0).then_some(split as f64));
+    due.extend([10.0, 130.0, 5.0]);
+    tells(&drawn.caption, &due);
 }
 
 #[test]

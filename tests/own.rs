@@ -17,8 +17,10 @@ use tempfile::TempDir;
 use verify::case::{Asked, Case};
 use verify::foreign::{Foreign, ForeignError, PROMISES, method, serve, wire};
 use verify::judge::judge;
+use verify::properties::relations::Relation;
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
+use verify::seed::generator;
 use verify::subject::{NAIVE, Subject};
 use verify::verdict::Verdict;
 
@@ -384,6 +386,33 @@ fn a_tracer_at_odds_with_itself_is_not_as_it_should_be() {
         assert_eq!(output.status.code(), Some(code), "{name}: {told}");
         assert!(told.contains("case       Equal, ") && told.contains(word), "{name}: {told}");
         assert_eq!(told.contains("relations  hold"), code == 0, "{name}: {told}");
+    }
+}
+
+/// Who takes the spheres of the frame before where these are enough is right in each frame alone, and at odds with itself in a second one,
+/// in which spheres have moved.
+#[test]
+fn who_remembers_the_frame_before_is_at_odds_with_itself() {
+    if !has("python3") {
+        return;
+    }
+    let desk = tempfile::tempdir().expect("a temporary folder");
+    let (scene, camera) = scene("uniform:5:1", [8, 4]);
+    let remembers = "before, now = globals().get(\"now\", []), read(4 * n)\n    \
+                     spheres = before if len(before) > len(now) else now";
+    for (name, text, sound) in
+        [("sound.py", client(), true), ("remembers.py", broken("spheres = read(4 * n)", remembers), false)]
+    {
+        let asked = Asked::Foreign {
+            name: name.into(),
+            promise: PROMISES[0].1,
+            tracer: Some(foreign(&python(desk.path(), name, &text))),
+        };
+        let frames = Animation::from(scene.clone());
+        let case = Case { frames, camera, asked, expected: Verdict::Equal, pixel: None, why: name.into() };
+        let held = Relation::Second.hold(&case, &mut generator(1, 0));
+        assert_eq!(held.is_ok(), sound, "{name}: {held:?}");
+        assert!(held.is_ok_and(|pixels| pixels == 32) || !sound, "{name}: another number of pixels");
     }
 }
 

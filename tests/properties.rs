@@ -3,6 +3,11 @@
 //! each property draws.
 
 use contract::{Animation, Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
+use optimized::event::{Event, Events};
+use optimized::grid::{Axis, Bounds, Grid};
+use optimized::host::Scalar;
+use optimized::plan::Plan;
+use optimized::seen::Counts;
 use reference::{Arithmetic, Tracer};
 use verify::case::Case;
 use verify::properties::relations::RELATIONS;
@@ -66,6 +71,81 @@ fn what_is_at_stake_is_counted() {
         let tied = if spheres.len() == 2 { stakes.count("hits") } else { 0 };
         assert_eq!(stakes.count("rays with an equal second hit"), tied, "{what}: {stakes}");
         assert!(stakes.count("hits") > 0 || what == "a speck", "{what}: {stakes}");
+    }
+}
+
+/// Spheres whose cells can be counted by hand, in a grid whose planes are the whole numbers from 0 to 4.
+#[test]
+fn cells_and_planes_at_stake_are_counted() {
+    let whole = Bounds::nearest([2.0; 3], 2.0);
+    let mut grid = Grid::build(Scalar, &Plan::safe(), &[whole], &mut Events::default()).expect("one ball");
+    grid.axes = [0, 1, 2].map(|_| Axis::new(Scalar, 0.0, 4.0, 4));
+    assert_eq!(grid.axes[0].planes, [0.0, 1.0, 2.0, 3.0, 4.0]);
+    // From 0.5 to 2 on x, but for so many units in the last place of 2.
+    let ends_at = |ulps: i8| ([1.25, 1.5, 1.5], 0.75 + f32::from(ulps) * f32::EPSILON * 2.0);
+    // In several cells, in three of an axis or more, near a plane.
+    for (what, (center, radius), due) in [
+        ("in a cell", ([0.5; 3], 0.25), [0, 0, 0]),
+        ("in two", ([1.0, 0.5, 0.5], 0.25), [1, 0, 0]),
+        ("in eight", ([1.0; 3], 0.25), [1, 0, 0]),
+        ("in twenty-seven", ([1.5; 3], 0.75), [1, 1, 0]),
+        ("up to a plane", ends_at(0), [1, 1, 1]),
+        ("4 ulp beyond", ends_at(4), [1, 1, 1]),
+        ("5 ulp beyond", ends_at(5), [1, 1, 0]),
+        ("4 ulp below", ends_at(-4), [1, 1, 1]),
+        ("5 ulp below", ends_at(-5), [1, 1, 0]),
+        ("at the ends of the grid alone", ([2.0; 3], 2.0), [1, 1, 0]),
+    ] {
+        let scene = Scene::new(vec![Sphere { center, radius, color: [9; 3] }], [0; 3], DEFAULT_LIGHT);
+        let mut stakes = Stakes::default();
+        stakes.add_grid(&scene.expect("valid"), &grid);
+        let all = [
+            "spheres in several cells",
+            "spheres that span three cells or more",
+            "spheres within 4 ulp of a plane",
+        ];
+        assert_eq!(all.map(|what| stakes.count(what)), due, "{what}: {stakes}");
+    }
+}
+
+/// Each number another, so that none can stand for another.
+#[test]
+fn what_a_tracer_needed_is_counted() {
+    let counts = Counts {
+        cells: 100,
+        candidates: 90,
+        culled: 80,
+        split_blocks: 70,
+        lanes: 60,
+        asked_f64: 50,
+        asked_integers: 40,
+        rounded_by_integers: 30,
+    };
+    let mut events = Events::default();
+    for (event, times) in [
+        (Event::CellFull { cell: [1, 2, 3], pushed: 4, lost: 5 }, 4),
+        (Event::SpansCells { sphere: 6, axis: 0, cells: 3 }, 3),
+        (Event::TooManyIds { spheres: 70_000 }, 2),
+        (Event::OutOfRange, 1),
+    ] {
+        (0..times).for_each(|_| events.push(event.clone()));
+    }
+    let mut stakes = Stakes::default();
+    stakes.add_tracer(&counts, &events);
+    for (what, due) in [
+        ("cells visited", 100),
+        ("candidates", 90),
+        ("candidates culled", 80),
+        ("blocks split", 70),
+        ("rays that f32 left to f64", 50),
+        ("rays that f64 left to integers", 40),
+        ("t rounded by integers", 30),
+        ("queues full", 4),
+        ("too large for eight corners", 3),
+        ("scenes of too many ids", 2),
+        ("scenes out of range", 1),
+    ] {
+        assert_eq!(stakes.count(what), due, "{what}: {stakes}");
     }
 }
 

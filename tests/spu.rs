@@ -24,7 +24,7 @@ use verify::spu::isa::{Class, Op, Pipe};
 use verify::spu::machine::Lanes;
 use verify::spu::model::{Measured, measure_nearest};
 use verify::spu::pipeline::Pipeline;
-use verify::spu::predict::{Policy, Predictor, SITES};
+use verify::spu::predict::{LOOP_SITES, Policy, Predictor, SITES};
 use verify::spu::recorder::{Booked, STAGES, Tally, cycles, record};
 use verify::spu::sequence::{Operand, TABLE};
 use verify::spu::store::{Buffers, CAPACITY, LocalStoreFull, Map, code_bytes, queue_bytes};
@@ -796,6 +796,32 @@ fn a_survey_agrees_with_the_tracer() {
         );
         assert_eq!(site.best, site.taken.min(site.executed - site.taken), "{site:?}");
     }
+    // What is told by rays, branches, cells and traversals is told of what was counted.
+    let same = |what: &str, found: f64, due: f64| {
+        assert!((found - due).abs() <= 1e-9 * due, "{what}: {found} of {due}");
+    };
+    for stage in found.rates.iter().flat_map(|rate| &rate.stages) {
+        for (ray, frame) in stage.per_ray.into_iter().zip(stage.per_frame) {
+            same(stage.stage, ray * 160.0 * 90.0, frame);
+        }
+    }
+    for of in &found.loops {
+        let is_own = |name: &str| LOOP_SITES.iter().any(|site| format!("{site:?}") == name);
+        for (policy, k) in of.policies.iter().zip(0..) {
+            let all: u64 = of.sites.iter().map(|site| site.mispredicts[k]).sum();
+            let own = of.sites.iter().filter(|site| is_own(&site.site));
+            let own = own.map(|site| site.mispredicts[k]).sum::<u64>();
+            for (what, share, times, due) in [
+                ("branches", policy.per_branch, of.branches, own),
+                ("cells", policy.per_cell, of.cells, own),
+                ("traversals", policy.per_traversal, of.traversals, own),
+                ("traversals, all branches", policy.all_per_traversal, of.traversals, all),
+            ] {
+                same(what, share.expect("there are some") * times as f64, due as f64);
+            }
+        }
+    }
+    assert!(found.loops.iter().any(|of| of.branches != of.cells && of.cells != of.traversals));
     // A second buffer hides transfers, and costs nothing.
     let more = |rate: &Rate| [0, 1].map(|i| rate.frames_per_second_double[i] / rate.frames_per_second[i]);
     let more: Vec<f64> = found.rates.iter().flat_map(more).collect();

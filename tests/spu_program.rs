@@ -35,6 +35,7 @@ fn a_scene_is_measured_stage_by_stage() {
     {
         assert_eq!(out.matches(word).count().min(2), 2, "{word} is missing in one of two frames: {out}");
     }
+    assert!(!out.contains("counted"), "all blocks are traced: {out}");
     let report = json(&file);
     assert_eq!((report["schema_version"].as_u64(), report["kind"].as_str()), (Some(2), Some("spu")));
     let frames: Vec<_> = report["surveys"].as_array().expect("surveys").iter().map(|s| &s["frame"]).collect();
@@ -60,6 +61,9 @@ fn what_does_not_fit_is_refused_and_can_be_measured_all_the_same() {
     }
     let [out, _] = said(&[&small[..], &["--unlimited"]].concat(), 0);
     assert!(out.contains("too many"), "{out}");
+    // Tests are counted in a quarter of the blocks, cycles are those of a frame.
+    let words: Vec<&str> = out.split_whitespace().collect();
+    assert!(words.join(" ").contains(" with, counted in the blocks traced, a factor of "), "{out}");
     said(&["1hvr", "--grid", "20", "--size", "64x36"], 2);
     said(&["1hvr", "--grid", "8", "--size", "64x36", "--plan", "safe"], 0);
 }
@@ -99,14 +103,34 @@ fn capacity_and_bad_usage() {
 fn curves_make_a_page() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("page");
-    let words = ["uniform:200:1", "--size", "64x36", "--curves", "--out", out.to_str().expect("a path")];
-    said(&words, 0);
+    let to = out.to_str().expect("a path");
+    said(&["2juy", "--frame", "3", "--size", "64x36", "--curves", "--out", to], 0);
     let page = std::fs::read_to_string(out.join("spu.html")).expect("a page");
     assert!(page.matches("<svg").count() >= 10, "curves are missing");
     assert!(!page.contains("NaN") && !page.contains("inf,"), "a figure is no number");
     let report = json(&out.join("spu.json"));
     let points = |k: usize| report["curves"][k]["points"].as_array().map_or(0, Vec::len);
     assert_eq!([points(0), points(1)], [6, 7]);
+    // Of random spheres there is one frame; over grid size it is the scene's own.
+    for (k, frame) in [(0, 0), (1, 3)] {
+        let points = report["curves"][k]["points"].as_array().expect("points");
+        assert!(points.iter().all(|point| point["survey"]["frame"] == frame), "curve {k}: {points:?}");
+    }
+}
+
+/// Of a picture that looks away from the scene there are no cells to divide by: a dash stands there, and null.
+#[test]
+fn what_is_told_by_cells_is_a_dash_without_cells() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("spu.json");
+    let name = file.to_str().expect("a path in UTF-8");
+    let away = ["2juy", "--eye", "0,0,300", "--target", "0,0,600", "--size", "64x36", "--json", name];
+    let [out, _] = said(&away, 0);
+    assert!(!out.contains(" inf ") && !out.contains("NaN") && out.contains(" – a cell"), "{out}");
+    let loops = &json(&file)["surveys"][0]["loops"];
+    for of in loops.as_array().expect("two loops") {
+        assert!(of["cells"] == 0 && of["policies"][0]["per_cell"].is_null(), "{of}");
+    }
 }
 
 /// Nested loops and masks mispredict many times a walk, selection about once, as on the model.

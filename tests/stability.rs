@@ -1,8 +1,8 @@
 //! Do the maps of where methods break show the breakdowns that are known, and nothing where there is nothing?
 
-use contract::{Camera, Image, MISS, Scene, Size};
+use contract::{Camera, Image, MISS, Scene, Size, Sphere};
 use optimized::{Level, Plan};
-use reference::{Arithmetic, Tracer};
+use reference::{Arithmetic, Ray, Tracer};
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::Duration;
@@ -13,10 +13,11 @@ use verify::methods::{Family, Method, swept};
 use verify::report::Environment;
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
-use verify::seed::{count, seed};
+use verify::seed::{count, generator, seed};
 use verify::stability::breakdown::breakdown;
 use verify::stability::data::{Count, Curve, Line, Map};
 use verify::stability::measure::Named;
+use verify::stability::sweep::SWEEPS;
 use verify::stability::text::text;
 use verify::stability::{Asked, SCHEMA_VERSION, Stability, stability, steps};
 use verify::subject::SubjectError;
@@ -290,6 +291,37 @@ fn advice_is_what_was_measured() {
     assert!(!said.never_wrong && limits.len() == 1, "{said:?}");
     assert!(verify::stability::page::page(&blind).expect("filled in").contains(": not measured</title>"));
     assert!(!verify::stability::page::page(&found).expect("filled in").contains(": not measured</title>"));
+}
+
+/// The middle ray goes at the angle to the nearest axis that is told, and the cloud stands as far from the origin, with the eye at its
+/// distance of one of its balls. Few methods break by either, so that no rate tells whether it is turned up.
+#[test]
+fn what_is_said_to_be_turned_up_is() {
+    let length = |v: [f64; 3]| v.into_iter().map(|x| x * x).sum::<f64>().sqrt();
+    let sweep = |name: &str| SWEEPS.iter().find(|sweep| sweep.name == name).expect("it is one of them");
+    let (angle, offset) = (sweep("angle"), sweep("offset"));
+    for shot in 0..8 {
+        for degrees in (angle.values)() {
+            let shot = (angle.shot)(degrees, &mut generator(7, shot)).expect("a shot");
+            let size = shot.camera.size();
+            let dir = Ray::of_pixel(&shot.camera, size.width() / 2, size.height() / 2).dir.map(f64::from);
+            let along = dir.into_iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+            let found = (along / length(dir)).acos().to_degrees();
+            assert!((found - degrees).abs() < 0.1, "{found} degrees of {degrees}");
+        }
+        for radii in (offset.values)() {
+            let shot = (offset.shot)(radii, &mut generator(7, shot)).expect("a shot");
+            let (balls, eye) = (shot.scene.spheres(), shot.camera.eye().map(f64::from));
+            let middle = [0, 1, 2].map(|i| {
+                balls.iter().map(|ball| f64::from(ball.center[i])).sum::<f64>() / balls.len() as f64
+            });
+            // In units in the last place of so large a number.
+            let error = 0.5 + 1e-6 * radii;
+            assert!((length(middle) - radii).abs() < error, "{middle:?} for an offset of {radii}");
+            let apart = |ball: &Sphere| length([0, 1, 2].map(|i| f64::from(ball.center[i]) - eye[i])) - 20.0;
+            assert!(balls.iter().any(|ball| apart(ball).abs() < error), "no ball 20 radii from {eye:?}");
+        }
+    }
 }
 
 // ---- methods and runs that are made up ----

@@ -20,12 +20,12 @@ use optimized::walk::{Cursor, Rectangle, step, walk};
 
 pub(super) fn claims(looked: &[Looked], said: &[Finding], seed: u64) -> Vec<PaperClaim> {
     let nested = |claim, policy: Policy| {
-        asked(claim, Evidence::Measured, looked, move |look| match of_kind(&look.survey, "nested") {
-            Some(nested) => {
-                let share = 100.0 * nested.policies[policy as usize].per_branch;
-                ((share > 50.0).into(), format!("{} %", figure(share)))
+        asked(claim, Evidence::Measured, looked, move |look| {
+            let nested = of_kind(&look.survey, "nested");
+            match nested.and_then(|nested| nested.policies[policy as usize].per_branch) {
+                Some(share) => ((share > 0.5).into(), format!("{} %", figure(100.0 * share))),
+                None => (Answer::Silent, String::new()),
             }
-            None => (Answer::Silent, String::new()),
         })
     };
     let against = |claim, policy: Policy| {

@@ -66,7 +66,7 @@ impl Relation {
         }
     }
 
-    /// Holds a case to it. How many pixels were compared; 0 if it says nothing of this case.
+    /// Holds a case to it. How many pixels were compared; 0 if it says nothing of this case, or changes nothing of it.
     ///
     /// # Errors
     /// What differs, in a sentence.
@@ -85,12 +85,15 @@ impl Relation {
         let old = last(&before).map_err(|error| self.says(&error))?;
         let with = |spheres: Vec<Sphere>, light: [f32; 3], camera: Option<Camera>, asked: &Asked| {
             let scene = Scene::new(spheres, scene.background(), light).ok()?;
-            Some(Case {
+            let new = Case {
                 frames: Animation::from(scene),
                 camera: camera?,
                 asked: asked.clone(),
                 ..before.clone()
-            })
+            };
+            // A picture that is held against itself shows nothing.
+            let parts = |case: &Case| (case.frames.clone(), case.camera, case.asked.to_string());
+            (parts(&new) != parts(&before)).then_some(new)
         };
         let plain = |spheres| with(spheres, scene.light(), Some(case.camera), &case.asked);
         let same = |t: f32| t;
@@ -105,8 +108,12 @@ impl Relation {
                 let new = last(&new).map_err(|error| self.says(&error))?;
                 // Equal roots may now have another owner; then whichever of the two comes first is seen.
                 let owner = |id: u32| order[id as usize];
+                let both = |a: u32, b: u32| {
+                    let two = vec![spheres[a as usize], spheres[b as usize]];
+                    Scene::new(two, scene.background(), scene.light()).ok()
+                };
                 let first_of = |a: u32, b: u32, i: usize| {
-                    let two = plain(vec![spheres[a as usize], spheres[b as usize]]);
+                    let two = both(a, b).map(|two| Case { frames: Animation::from(two), ..before.clone() });
                     two.and_then(|two| last(&two).ok()).is_some_and(|image| image.ids[i] == 0)
                 };
                 // Whoever promises the truth may not take two roots for equal that only round to one f32.
@@ -114,10 +121,8 @@ impl Relation {
                     let i = u32::try_from(i).expect("an image has at most 2^27 pixels");
                     let width = case.camera.size().width();
                     let ray = Ray::of_pixel(&case.camera, i % width, i / width);
-                    let two =
-                        Scene::new(vec![spheres[a as usize], spheres[b as usize]], [0; 3], scene.light());
                     let exact = Tracer::new(Arithmetic::Exact);
-                    two.is_ok_and(|two| exact.trace(&ray, &two).is_some_and(|hit| hit.id == 0))
+                    both(a, b).is_some_and(|two| exact.trace(&ray, &two).is_some_and(|hit| hit.id == 0))
                 };
                 let first = |a: u32, b: u32, i: usize| first_of(a, b, i) && (!exact || truly_first(a, b, i));
                 let tied =

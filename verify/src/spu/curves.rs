@@ -58,7 +58,9 @@ pub struct Asked<'a> {
     pub framing: &'a Framing,
     /// The scene of the curve over grid size.
     pub name: &'a str,
-    /// Its frame.
+    /// Which of its frames it is.
+    pub frame: usize,
+    /// The frame.
     pub scene: &'a Scene,
     /// Its camera.
     pub camera: &'a Camera,
@@ -69,9 +71,9 @@ pub struct Asked<'a> {
 /// # Errors
 /// [`CurveError`] if a scene cannot be made, seen or surveyed.
 pub fn curves(asked: &Asked<'_>, done: &dyn Fn()) -> Result<[Curve; 2], CurveError> {
-    let Asked { plan, every, framing, name, scene, camera } = *asked;
-    let at = |name: &str, plan, scene: &Scene, camera: &Camera| {
-        let input = Input { name, frame: 0, scene, camera, plan, every, unlimited: true };
+    let Asked { plan, every, framing, name, frame, scene, camera } = *asked;
+    let at = |(name, frame): (&str, usize), plan, scene: &Scene, camera: &Camera| {
+        let input = Input { name, frame, scene, camera, plan, every, unlimited: true };
         let survey = survey(&input, &|| ());
         done();
         survey
@@ -81,12 +83,12 @@ pub fn curves(asked: &Asked<'_>, done: &dyn Fn()) -> Result<[Curve; 2], CurveErr
         let name = format!("uniform:{n}:1");
         let loaded = Source::parse(&name)?.load()?;
         let camera = loaded.camera(framing)?;
-        let survey = at(&name, plan, &loaded.animation.frames()[0], &camera)?;
+        let survey = at((&name, 0), plan, &loaded.animation.frames()[0], &camera)?;
         spheres.push(Point { x: n.into(), survey });
     }
     for n in CELLS {
         let plan = Plan { resolution: Resolution::Fixed(n), ..plan };
-        cells.push(Point { x: n.into(), survey: at(name, plan, scene, camera)? });
+        cells.push(Point { x: n.into(), survey: at((name, frame), plan, scene, camera)? });
     }
     Ok([
         Curve { over: "spheres", of: "random spheres in a cube".into(), points: spheres },

@@ -107,7 +107,7 @@ fn charts(curve: &Curve) -> Vec<Chart> {
     let loops = first.survey.loops.iter().enumerate().flat_map(|(k, kind)| {
         [0, hinted].map(|policy| {
             let label = format!("{}, {}", kind.walk, kind.policies[policy].policy);
-            let of: Figure<'_> = Box::new(move |s: &Survey| Some(s.loops[k].policies[policy].per_traversal));
+            let of: Figure<'_> = Box::new(move |s: &Survey| s.loops[k].policies[policy].per_traversal);
             (label, of)
         })
     });
@@ -115,7 +115,7 @@ fn charts(curve: &Curve) -> Vec<Chart> {
     let by_cell = first.survey.loops.iter().enumerate().flat_map(|(k, kind)| {
         [0, hinted].map(|policy| {
             let label = format!("{}, {}", kind.walk, kind.policies[policy].policy);
-            let of: Figure<'_> = Box::new(move |s: &Survey| Some(s.loops[k].policies[policy].per_cell));
+            let of: Figure<'_> = Box::new(move |s: &Survey| s.loops[k].policies[policy].per_cell);
             (label, of)
         })
     });

@@ -110,14 +110,14 @@ pub struct LoopCost {
 pub struct Mispredicts {
     /// The policy.
     pub policy: &'static str,
-    /// By the loop's own branches.
-    pub per_branch: f64,
+    /// By the loop's own branches; none, as below, if there is nothing to divide by.
+    pub per_branch: Option<f64>,
     /// By cells.
-    pub per_cell: f64,
+    pub per_cell: Option<f64>,
     /// By traversals.
-    pub per_traversal: f64,
+    pub per_traversal: Option<f64>,
     /// Those of all branches of tracing, by traversals.
-    pub all_per_traversal: f64,
+    pub all_per_traversal: Option<f64>,
     /// Cycles of a frame over six SPUs.
     pub frame_cycles: Bracket,
 }
@@ -351,13 +351,13 @@ fn loop_cost(walk: &'static str, frame: &Measured, spheres: usize) -> Result<Loo
     let branches = LOOP_SITES.iter().map(|site| trace.site(*site).executed).sum();
     let mut policies = Vec::new();
     for policy in Policy::ALL {
-        let own = trace.mispredicts(&LOOP_SITES, policy) as f64;
+        let own = trace.mispredicts(&LOOP_SITES, policy);
         policies.push(Mispredicts {
             policy: policy.name(),
-            per_branch: own / branches as f64,
-            per_cell: own / cells as f64,
-            per_traversal: own / trace.packets as f64,
-            all_per_traversal: trace.mispredicts(&SITES, policy) as f64 / trace.packets as f64,
+            per_branch: ratio(own, branches),
+            per_cell: ratio(own, cells),
+            per_traversal: ratio(own, trace.packets),
+            all_per_traversal: ratio(trace.mispredicts(&SITES, policy), trace.packets),
             frame_cycles: frame_cost(frame, spheres, policy, Buffers::Single)?.cycles,
         });
     }

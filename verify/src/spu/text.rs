@@ -4,7 +4,7 @@ use super::cost::Bracket;
 use super::store::{Buffers, CAPACITY, Map, queue_bytes};
 use super::survey::{LoopCost, SiteCount, Survey};
 use crate::report::text::wrapped;
-use crate::report::words::{count, figure};
+use crate::report::words::{NONE, count, figure};
 use crate::scenes::catalogue::{Listing, list};
 
 /// All that a survey found.
@@ -29,8 +29,12 @@ fn heading(survey: &Survey) -> String {
     wrapped(&line) + "\n"
 }
 
+fn or_none(value: Option<f64>) -> String {
+    value.map_or_else(|| NONE.to_owned(), figure)
+}
+
 fn percent(part: u64, of: u64) -> String {
-    if of == 0 { "-".into() } else { figure(100.0 * part as f64 / of as f64) }
+    or_none((of > 0).then(|| 100.0 * part as f64 / of as f64))
 }
 
 /// Least and most, the same figure once.
@@ -84,10 +88,10 @@ fn loops(survey: &Survey) -> String {
             text += &format!(
                 "  {:<11} {:>6} a cell {:>6} a traversal {:>5} % of its branches; all branches {:>6} a traversal; {} million cycles\n",
                 policy.policy,
-                figure(policy.per_cell),
-                figure(policy.per_traversal),
-                figure(100.0 * policy.per_branch),
-                figure(policy.all_per_traversal),
+                or_none(policy.per_cell),
+                or_none(policy.per_traversal),
+                or_none(policy.per_branch.map(|share| 100.0 * share)),
+                or_none(policy.all_per_traversal),
                 range(policy.frame_cycles.map(|cycles| cycles / 1e6)),
             );
         }
@@ -119,16 +123,16 @@ fn sites(survey: &Survey) -> String {
 }
 
 fn sentences(survey: &Survey) -> Vec<String> {
-    let Survey { culling, mailbox, lists, picture, .. } = survey;
-    let factor = culling.factor.map_or("-".into(), figure);
-    let percent =
-        |part: u64, of: u64| if of == 0 { "-".into() } else { figure(100.0 * part as f64 / of as f64) };
+    let Survey { culling, mailbox, lists, picture, blocks: [traced, blocks], .. } = survey;
+    // Cycles are those of a frame in any case.
+    let counted = if traced < blocks { ", counted in the blocks traced" } else { "" };
     let parts = |bracket: Bracket| range(bracket.map(|share| 100.0 * share));
     vec![
         format!(
-            "Culling: {} tests of sixteen rays without, {} with, a factor of {factor}; {} and {} million cycles a frame.",
+            "Culling: {} tests of sixteen rays without, {} with{counted}, a factor of {}; {} and {} million cycles a frame.",
             count(culling.tests_without),
             count(culling.tests_with),
+            or_none(culling.factor),
             range(culling.cycles_without.map(|c| c / 1e6)),
             range(culling.cycles_with.map(|c| c / 1e6)),
         ),

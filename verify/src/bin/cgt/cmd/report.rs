@@ -249,7 +249,8 @@ fn paper(
     chapter("the paper's machine");
     let (name, scene, camera) = &scenes[0];
     let framing = asked.view.framing();
-    let over = Curves { plan: Plan::paper(), every: SAMPLE, framing: &framing, name, scene, camera };
+    let over =
+        Curves { plan: Plan::paper(), every: SAMPLE, framing: &framing, name, frame: 0, scene, camera };
     let tick = progress::bar("curves", "on the SPU model", POINTS);
     let machine = Machine {
         schema_version: data::SCHEMA_VERSION,

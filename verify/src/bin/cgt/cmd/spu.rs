@@ -69,6 +69,7 @@ fn both_curves(args: &Args) -> Result<Vec<Curve>, Failure> {
         every: args.sample.max(SAMPLE),
         framing: &framing,
         name: &word,
+        frame: args.view.frame,
         scene: &scene,
         camera: &camera,
     };
