@@ -14,7 +14,7 @@ const NOT_RUN: [(&str, &str); 20] = [
     ("tests/run", "it is what runs this test"),
     ("tests/fetch-data", "it needs a network"),
     ("tests/run --long", "it takes ten minutes"),
-    ("tests/faults/run", "it takes 51 minutes; tests/faults.rs runs what it judges by"),
+    ("tests/faults/run", "it takes an hour; tests/faults.rs runs what it judges by"),
     ("tests/faults/run --sample 12", "it builds the workspace with faults in it; .ci/run runs it"),
     (
         "fuzz/run scene 60",
