@@ -44,12 +44,12 @@ impl Listener for &Work {
     }
 }
 
-/// A scene of the catalogue, as it is shown.
-fn shown(name: &str, width: u32, height: u32) -> (Scene, Camera) {
+/// A scene of the catalogue.
+fn shown(name: &str, width: u32, height: u32, framing: Framing) -> (Scene, Camera) {
     let source = Source::parse(name).expect("a scene");
     let animation = source.load().expect("it is there").animation;
     let size = contract::Size::new(width, height).expect("small");
-    let camera = Framing { size: Some(size), ..Framing::default() }.camera(&animation).expect("in sight");
+    let camera = Framing { size: Some(size), ..framing }.camera(&animation).expect("in sight");
     (animation.frames()[0].clone(), camera)
 }
 
@@ -71,7 +71,7 @@ fn work(plan: Plan, workers: usize, scene: &Scene, camera: &Camera, known: Optio
 #[test]
 fn little_is_done_in_vain() {
     for name in ["1hvr", "uniform:2000:1", "sphereflake:3", "clump:2000:1"] {
-        let (scene, camera) = shown(name, 320, 180);
+        let (scene, camera) = shown(name, 320, 180, Framing::default());
         let plan = Plan::fast();
         let image = Tracer::new(plan, Level::SCALAR).render(&scene, &camera).expect("a picture").image;
         let [met, compared, _] = work(plan, 1, &scene, &camera, None);
@@ -85,10 +85,24 @@ fn little_is_done_in_vain() {
     }
 }
 
+/// From close by a tile sees a part of what its cells list, and takes no more than that for its patches to look through: a third more would be
+/// compared otherwise.
+#[test]
+fn a_tile_takes_what_it_may_see() {
+    let close = Framing { eye: Some([30.0, 20.0, 400.0]), fov: Some(1.0), ..Framing::default() };
+    let (scene, camera) = shown("clump:2000:1", 512, 256, close);
+    let image = Tracer::new(Plan::fast(), Level::SCALAR).render(&scene, &camera).expect("a picture").image;
+    let [_, compared, _] = work(Plan::fast(), 1, &scene, &camera, None);
+    let [met, least, _] = work(Plan::fast(), 1, &scene, &camera, Some(&Known::of(&image)));
+    let compared = compared as f64 / least as f64;
+    eprintln!("compares {compared:.2} times what it must");
+    assert!(met > 300 && compared < 4.0, "{compared} times");
+}
+
 /// Workers who share a grid find it built; of those who do not each builds its own, beside the one that is built for all.
 #[test]
 fn a_mirrored_grid_is_built_by_each_worker() {
-    let (scene, camera) = shown("uniform:300:1", 64, 64);
+    let (scene, camera) = shown("uniform:300:1", 64, 64, Framing::default());
     let built = |sharing, workers| work(Plan { sharing, ..Plan::paper() }, workers, &scene, &camera, None)[2];
     let once = built(Sharing::Shared, 1);
     assert!(once > 1_000, "{once} entries");
