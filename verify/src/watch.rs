@@ -2,7 +2,7 @@
 //! viewer's overlays see into the tracer without a second one being written.
 //!
 //! In: what a frame prepared, and the directions of a block. Out: the notes in the order in which things happened, what the packet
-//! counted itself, and its answers ([`watched`]).
+//! counted itself, and its answers.
 
 use contract::Scene;
 use optimized::camera::Block;

@@ -120,7 +120,7 @@ fn found(claim: &Claim, findings: &[Finding]) -> Found {
         let judged = all.iter().all(|finding| finding.outcome != Outcome::NotJudged);
         let proved = |finding: &&Finding| finding.outcome == Outcome::Proved;
         let told = |finding: &&Finding| proved(finding) || matches!(finding.outcome, Outcome::Refuted(_));
-        let found = if !all.iter().all(|finding| finding.wrong.is_empty() && told(&finding)) {
+        let found = if !all.iter().all(|finding| finding.wrong.is_empty() && told(finding)) {
             Evidence::NotShown
         } else if all.iter().all(proved) {
             Evidence::Proved
