@@ -53,7 +53,7 @@ pub(super) fn claims(looked: &[Looked], said: &[Finding], seed: u64) -> Vec<Pape
                     lost.iter().map(|(ratio, share)| format!("{ratio}: {} %", figure(*share))).collect();
                 let so = lost.iter().all(|(ratio, share)| *ratio >= 1.0 || *share == 0.0);
                 (
-                    so.into(),
+                    cell.and(so.into()),
                     format!(
                         "{}. Of {BALLS} random spheres by diameter in cells are lost: {}",
                         cell.figure,
@@ -100,7 +100,7 @@ pub(super) fn claims(looked: &[Looked], said: &[Finding], seed: u64) -> Vec<Pape
             queue.or(Evidence::Sampled),
             {
                 let (answer, times) = equal_cells(true);
-                (answer, format!("{}; {times}", queue.figure))
+                (queue.and(answer), format!("{}; {times}", queue.figure))
             },
         )
         .by(queue.command),

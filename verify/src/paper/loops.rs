@@ -50,7 +50,7 @@ pub(super) fn claims(looked: &[Looked], said: &[Finding], seed: u64) -> Vec<Pape
             printed_order(),
         )
         .against(smallest_printed())
-        .by("cargo run --release -- prove walk"),
+        .by(mended.command.clone()),
         asked("The flattened loop as printed finds the same picture", Evidence::Sampled, looked, |look| {
             let wrong = look.survey.picture.wrong_as_printed;
             ((wrong == 0).into(), format!("{wrong} pixels differ"))
@@ -59,7 +59,7 @@ pub(super) fn claims(looked: &[Looked], said: &[Finding], seed: u64) -> Vec<Pape
         alone(
             "One loop can visit the cells of the nested loops in their order (mended: each slice's own bounds, k innermost, no empty slice)",
             mended.or(Evidence::Exhausted),
-            (mended_order(), mended.figure),
+            (mended.and(mended_order()), mended.figure),
         )
         .by(mended.command),
         alone("The three cases of its step are computed and selected without a branch", Evidence::Measured, branches_of_a_step()),

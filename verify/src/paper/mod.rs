@@ -293,32 +293,46 @@ impl PaperClaim {
     }
 }
 
-/// Lemmas of [`crate::prove`] on which a claim rests: whether solvers have proved all of them in this run, what stands beside them, and the
-/// command that proves them.
+/// Lemmas of [`crate::prove`] on which a claim rests: what solvers say of all of them in this run, what stands beside them, and the command
+/// that proves them.
 struct Proof {
-    proved: bool,
+    said: Answer,
     figure: String,
     command: String,
 }
 
 impl Proof {
     fn of(lemmas: &[&str], said: &[Finding]) -> Self {
-        let proved = |name: &&str| {
-            let is =
-                |one: &Finding| one.name == *name && one.outcome == Outcome::Proved && one.wrong.is_empty();
-            said.iter().any(is)
-        };
-        let proved = lemmas.iter().all(proved);
+        let of = |name: &&str| said.iter().find(|one| one.name == *name);
+        let proved =
+            |name| of(name).is_some_and(|one| one.outcome == Outcome::Proved && one.wrong.is_empty());
+        let refuted = |name| of(name).is_some_and(|one| matches!(one.outcome, Outcome::Refuted(_)));
         let claim = CLAIMS.iter().find(|claim| lemmas.iter().all(|name| claim.lemmas.contains(name)));
         let (figure, command) =
             claim.map_or((String::new(), HOW.into()), |claim| (claim.figure(), claim.command()));
-        let figure = if proved { figure } else { format!("not proved in this run; {figure}") };
-        Self { proved, figure, command }
+        let all = lemmas.iter().all(proved);
+        let (said, figure) = if all {
+            (Answer::Yes, figure)
+        } else if lemmas.iter().any(refuted) {
+            (Answer::No, format!("refuted in this run; {figure}"))
+        } else {
+            (Answer::Silent, format!("not proved in this run; {figure}"))
+        };
+        Self { said, figure, command }
     }
 
-    /// What a claim rests on that has something else beside the proof.
-    fn or(&self, else_on: Evidence) -> Evidence {
-        if self.proved { Evidence::Proved } else { else_on }
+    /// The kind of evidence of a claim that has something else beside the proof.
+    fn or(&self, beside: Evidence) -> Evidence {
+        match self.said {
+            Answer::Yes => Evidence::Proved,
+            Answer::No => Evidence::Refuted,
+            Answer::Open | Answer::Silent => beside,
+        }
+    }
+
+    /// Its answer: whatever is beside it, a lemma that is refuted is none that holds.
+    fn and(&self, beside: Answer) -> Answer {
+        if self.said == Answer::No { Answer::No } else { beside }
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) fn claims(looked: &[Looked], said: &[Finding]) -> Vec<PaperClaim> {
         alone(
             "Slices and culling lose nothing that a ray of the packet hits, but for rounding",
             visible.or(Evidence::NotShown),
-            (if visible.proved { Answer::Yes } else { Answer::Silent }, visible.figure),
+            (visible.said, visible.figure),
         )
         .by(visible.command),
         asked("The picture is that of one loop over all spheres", Evidence::Sampled, looked, |look| {
