@@ -257,6 +257,29 @@ fn the_range_of_margins_ends_where_it_says() {
     assert!(short(1e5) && !short(1e6), "directions longer than 2^20");
 }
 
+/// So far from the origin that f32 moves points by more than any sphere reaches: where no centre is near enough, none is looked for, however
+/// many steps of f32 there are.
+#[test]
+fn points_that_no_centre_reaches_are_passed_over() {
+    let mut rng = generator(seed(), 0);
+    let plan = Plan {
+        voxelizer: Voxelizer::ByCenter,
+        cells: Cells::Lists,
+        resolution: Resolution::Fixed(4),
+        ..Plan::safe()
+    };
+    let at = |x: f32| Sphere { center: [1e6 + x; 3], radius: 1e-3, color: [9; 3] };
+    let mut points = 0;
+    for _ in 0..20 {
+        let camera = beam([1e6 - 1.0, 1e6, 1e6 + 2.0], [1e6 + 90.0, 1e6 + 70.0, 1e6 + 80.0], 1e-3, &mut rng);
+        let (scene, seen) = seen(plan, &[at(0.0), at(100.0)], &camera.expect("a camera"));
+        let camera = camera.expect("a camera");
+        points +=
+            rays_are_walked(&seen, &scene, &camera, &mut rng).unwrap_or_else(|why| panic!("{why}")).points;
+    }
+    assert!(points > 100, "{points} points within the grid");
+}
+
 /// A ball that touches a plane from below has a point in the cell that begins there; one that touches it from above has none in the
 /// cell that ends there. Planes and radii are such that nothing is rounded.
 #[test]

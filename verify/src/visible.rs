@@ -218,13 +218,26 @@ impl Packet<'_> {
         }
         let near = point.0.each_ref().map(to_f32);
         let (i, outward) = (rng.random_range(0..3), rng.random::<bool>());
-        let mut center = near;
-        center[i] = if outward { near[i] + self.farthest } else { near[i] - self.farthest };
-        // Back by an ulp of the distance and one of the centre: either alone may be too small to get anywhere.
-        let step = self.farthest * f32::EPSILON / 2.0;
-        while !point.within(center, self.farthest) {
-            center[i] = if outward { (center[i] - step).next_down() } else { (center[i] + step).next_up() };
+        let reaches = |x: f32| {
+            let mut center = near;
+            center[i] = x;
+            point.within(center, self.farthest)
+        };
+        // The point is not rounded: a sphere smaller than what rounding moves it by reaches it from nowhere.
+        if !reaches(near[i]) {
+            return Ok(());
         }
+        let mut beyond = if outward { near[i] + self.farthest } else { near[i] - self.farthest };
+        let mut reached = if reaches(beyond) { beyond } else { near[i] };
+        loop {
+            let middle = reached + (beyond - reached) / 2.0;
+            if middle == reached || middle == beyond {
+                break;
+            }
+            *if reaches(middle) { &mut reached } else { &mut beyond } = middle;
+        }
+        let mut center = near;
+        center[i] = reached;
         let planes = &self.grid.axes[i].planes;
         if !(planes[0]..=planes[planes.len() - 1]).contains(&center[i]) {
             return Ok(());
