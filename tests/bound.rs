@@ -1,9 +1,12 @@
 //! Does the error bound of the f32 stage hold, and is half of it too little? On all inputs of two domains of small floats, and on
 //! inputs made so that roundings add up, at the precision that ships.
 
+use contract::{Camera, DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
 use optimized::bound::{NEAREST, Rule};
 use optimized::host::Scalar;
 use optimized::machine::{LANES, Machine};
+use optimized::plan::{Packet, Plan, Resolution};
+use optimized::{Level, Tracer};
 use rayon::prelude::*;
 use verify::bounds::{Directions, Said, Trial, Whole, adverse, all_directions};
 use verify::seed::{count, generator, seed};
@@ -96,6 +99,41 @@ fn it_holds_where_roundings_add_up_and_half_of_it_does_not() {
     assert_eq!(whole.wrong, 0, "{:?}", whole.first);
     let half = adversity(Trial { machine: Scalar, rule: Rule::new(NEAREST), factor: 0.5 }, f32s);
     assert!(half.wrong > half.inputs / 1000, "half of the bound is hardly ever too little: {half:?}");
+}
+
+/// Pictures too need the whole bound: of one pixel, which shows an adverse input, by blocks and by tiles.
+#[test]
+fn pictures_of_adverse_inputs_are_exact() {
+    let (seed, small) = (seed(), Small { bits: 24, mode: Mode::Nearest });
+    let (level, size) = (Level::best().expect("a level"), Size::new(1, 1).expect("a pixel"));
+    let each = (0..8_000u64).into_par_iter().map(|i| {
+        let (ball, direction) = adverse(small, i % 2 == 1, &mut generator(seed, i));
+        // Into the range of the margins, by powers of two.
+        #[allow(clippy::cast_precision_loss, reason = "all are floats")]
+        let [place, along] = [2f32.powi(-24), 2f32.powi(-20)].map(|scale| move |x: i64| x as f32 * scale);
+        let center = [0, 1, 2].map(|axis| place(ball.center[axis] + ball.eye[axis]));
+        let sphere = Sphere { center, radius: place(ball.radius), color: [9; 3] };
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("valid");
+        // So little to the next pixel that its middle is the corner, but for rounding.
+        let step = 2f32.powi(-22);
+        let (eye, corner) = (ball.eye.map(place), direction.map(along));
+        let camera = Camera::new(eye, corner, [0.0, step, 0.0], [0.0, 0.0, step], size).expect("valid");
+        let ray = reference::Ray::of_pixel(&camera, 0, 0);
+        assert_eq!(ray.dir, corner, "case {i} of CGT_SEED={seed}: another direction");
+        let truth = reference::Tracer::new(reference::Arithmetic::Exact).trace(&ray, &scene);
+        for packet in [Packet::Block, Packet::Tile { side: 1 }] {
+            let plan = Plan { packet, resolution: Resolution::Fixed(1), ..Plan::fast() };
+            let rendering = Tracer::new(plan, level).render(&scene, &camera).expect("nothing to refuse");
+            assert_eq!(rendering.events.count(), 0, "out of range: {camera:?}, {sphere:?}");
+            let [id, t] = [rendering.image.ids[0], rendering.image.t[0].to_bits()];
+            let wanted = truth.map_or([MISS, f32::INFINITY.to_bits()], |hit| [hit.id, hit.t.to_bits()]);
+            assert_eq!([id, t], wanted, "case {i} of CGT_SEED={seed}: {ball:?}, {direction:?}, {plan}");
+        }
+        u64::from(truth.is_some())
+    });
+    let hits: u64 = each.sum();
+    eprintln!("CGT_SEED={seed}: 8000 pixels, {hits} hits");
+    assert!((3_000..5_000).contains(&hits), "too little was at stake: {hits}");
 }
 
 /// Truncation needs twice the unit roundoff of rounding to nearest.

@@ -52,6 +52,54 @@ fn the_first_thing_that_is_wrong_is_told() {
     assert_eq!(error, SceneError::Light { light });
 }
 
+/// Each refusal names its place and value, each where it belongs.
+#[test]
+fn refusals_are_said_with_their_numbers() {
+    let texts = [
+        (
+            SceneError::Center { sphere: 17, center: [1.5, f32::NAN, -2.5] }.to_string(),
+            "sphere 17: centre is [1.5, NaN, -2.5]; every coordinate must be finite",
+        ),
+        (
+            SceneError::Radius { sphere: 19, radius: -3.5 }.to_string(),
+            "sphere 19: radius is -3.5; it must be finite and above 0",
+        ),
+        (
+            SceneError::Light { light: [1.5, -2.5, f32::INFINITY] }.to_string(),
+            "light is [1.5, -2.5, inf]; every component must be finite",
+        ),
+        (
+            SceneError::TooManySpheres { count: 200_000_003 }.to_string(),
+            "200000003 spheres; the limit is 134217728",
+        ),
+        (
+            CameraError::NotFinite { field: "corner", value: [f32::INFINITY, 4.5, 5.5] }.to_string(),
+            "camera corner is [inf, 4.5, 5.5]; every component must be finite",
+        ),
+        (
+            CameraError::Degenerate { du: [1.5, 2.5, 3.5], dv: [3.0, 5.0, 7.0] }.to_string(),
+            "camera du [1.5, 2.5, 3.5] and dv [3.0, 5.0, 7.0] are parallel or zero: the picture has no area",
+        ),
+        (
+            CameraError::Overflow { x: 23, y: 29, direction: [1.5, f32::INFINITY, 2.5] }.to_string(),
+            "camera: the direction of pixel (23, 29) is [1.5, inf, 2.5], beyond f32",
+        ),
+        (SizeError::Zero { width: 0, height: 31 }.to_string(), "an image of 0x31 pixels has no pixel"),
+        (
+            SizeError::TooLarge { width: 20_011, height: 37 }.to_string(),
+            "an image of 20011x37 pixels is too large; a side may have 16384, the whole 134217728",
+        ),
+        (
+            SizeError::NoMemory { width: 41, height: 43, bytes: 47 }.to_string(),
+            "no memory for an image of 41x43 pixels (47 bytes)",
+        ),
+        (AnimationError::NoFrames.to_string(), "an animation needs at least one frame"),
+    ];
+    for (said, words) in texts {
+        assert_eq!(said, words);
+    }
+}
+
 #[test]
 fn extreme_but_finite_scenes_are_let_in() {
     let least = f32::from_bits(1);

@@ -203,6 +203,74 @@ fn the_filter_needs_its_bound_far_away() {
     assert!(hits > cases / 10 && hits < cases * 9 / 10 && differ > 20, "too little was at stake");
 }
 
+/// The sums of rule 5, each step in f64: D, a (|f|² + r²), and t if there is one. `fused` has D with one rounding less.
+fn textbook(ray: &Ray, sphere: &Sphere, fused: bool) -> (f64, f64, Option<f64>) {
+    let [d, eye, center] = [ray.dir, ray.eye, sphere.center].map(|v| v.map(f64::from));
+    let r = f64::from(sphere.radius);
+    let f = [eye[0] - center[0], eye[1] - center[1], eye[2] - center[2]];
+    let dot = |u: [f64; 3], v: [f64; 3]| (u[0] * v[0] + u[1] * v[1]) + u[2] * v[2];
+    let (a, b, ff) = (dot(d, d), dot(f, d), dot(f, f));
+    let q = ff - r * r;
+    let discriminant = if fused { b.mul_add(b, -(a * q)) } else { b * b - a * q };
+    let s = discriminant.sqrt();
+    let (near, far) = ((-b - s) / a, (-b + s) / a);
+    let t = if near > 0.0 { near } else { far };
+    (discriminant, a * (ff + r * r), (discriminant >= 0.0 && t > 0.0).then_some(t))
+}
+
+/// A ray towards the rim of a ball some 10⁷ radii away: roundings of D are all that decides.
+fn towards_a_far_rim(seed: u64, i: u64) -> (Ray, Sphere) {
+    let mut rng = generator(seed, i);
+    let distance = 10f64.powf(rng.random_range(6.5..7.5));
+    let case = aimed(distance, rng.random_range(0.5..1.5), &mut rng);
+    (case.ray, case.spheres[0])
+}
+
+/// The filter says *certain miss* of a D that is below minus 32 units of a (|f|² + r²), which its derivation needs 21 of, and of no other: what it
+/// leaves comes to the intervals, some of which do not know the sign.
+#[test]
+fn the_filter_has_the_bound_it_says() {
+    let (seed, unit) = (seed(), f64::EPSILON / 2.0);
+    let each = (0..100_000).into_par_iter().map(|i| {
+        let (ray, sphere) = towards_a_far_rim(seed, i);
+        let (discriminant, size, _) = textbook(&ray, &sphere, false);
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("a sphere");
+        let mut undecided = Undecided::default();
+        let _ = Tracer::new(Arithmetic::Exact).trace_counting(&ray, &scene, &mut undecided);
+        match -discriminant / (size * unit) {
+            within if (22.0..31.9).contains(&within) => [1, undecided.hits, 0, 0],
+            beyond if (32.1..40.0).contains(&beyond) => [0, 0, 1, undecided.hits],
+            _ => [0; 4],
+        }
+    });
+    let sum = |x: [u64; 4], y: [u64; 4]| -> [u64; 4] { std::array::from_fn(|i| x[i] + y[i]) };
+    let [within, open, beyond, told] = each.reduce(|| [0; 4], sum);
+    eprintln!(
+        "CGT_SEED={seed}: of {within} rays within the bound {open} are open, of {beyond} beyond {told}"
+    );
+    assert!(within > 1_000 && open > within / 5, "the filter decides within its bound: {open} of {within}");
+    assert!(beyond > 1_000 && told == 0, "the filter leaves what is beyond its bound: {told} of {beyond}");
+}
+
+/// The form in f64 is rule 5 to the bit, where a fused step would show.
+#[test]
+fn f64_is_the_form_that_is_written() {
+    let (seed, mut hits, mut others) = (seed(), 0u64, 0u64);
+    for i in 0..20_000 {
+        let (ray, sphere) = towards_a_far_rim(seed, i);
+        let scene = Scene::new(vec![sphere], [0; 3], DEFAULT_LIGHT).expect("a sphere");
+        #[allow(clippy::cast_possible_truncation, reason = "the one rounding of t that rule 5 prescribes")]
+        let bits = |t: Option<f64>| t.map(|t| (t as f32).to_bits());
+        let written = bits(textbook(&ray, &sphere, false).2);
+        let given = Tracer::new(Arithmetic::F64).trace(&ray, &scene).map(|hit| hit.t.to_bits());
+        assert_eq!(given, written, "case {i} of CGT_SEED={seed}: {ray:?}, {sphere:?}");
+        hits += u64::from(given.is_some());
+        others += u64::from(bits(textbook(&ray, &sphere, true).2) != written);
+    }
+    eprintln!("CGT_SEED={seed}: {hits} of 20000 hit, {others} would be others with a fused step");
+    assert!(hits > 2_000 && others > 100, "too little was at stake: {hits}, {others}");
+}
+
 /// Rays that graze a sphere from within 10⁻¹³ radii of its surface, at any size: eye − centre is as long as the radius there, and the bound must count both.
 #[test]
 fn the_filter_needs_its_bound_at_a_surface() {

@@ -648,6 +648,75 @@ fn lists_of_a_crowd_do_not_go_with_its_square() {
     }
 }
 
+/// Balls that touch on a lattice are as wide as whole parts of it, but for rounding: cells chosen for eight corners are wider.
+#[test]
+fn cells_chosen_for_balls_that_touch_are_wide_enough() {
+    let level = Level::best().expect("a level");
+    let mut scenes = 0;
+    for (side, radius, offset) in (2..=9u8)
+        .flat_map(|side| [1.0f32, 0.75, 0.3].map(|radius| (side, radius)))
+        .flat_map(|(side, radius)| [0.0, 1.0, -2.5].map(|offset| (side, radius, offset)))
+    {
+        let at = |i: u8| offset + 2.0 * radius * f32::from(i);
+        let balls = (0..side).flat_map(|x| (0..side).map(move |y| (x, y)));
+        let balls = balls.flat_map(|(x, y)| (0..side).map(move |z| [x, y, z]));
+        let balls = balls.map(|corner| ball(corner.map(at), radius)).collect();
+        let scene = Scene::new(balls, [0; 3], contract::DEFAULT_LIGHT).expect("valid");
+        for arithmetic in ARITHMETICS {
+            let plan = Plan {
+                voxelizer: Voxelizer::EightCorners,
+                resolution: Resolution::UpTo(40),
+                on_event: OnEvent::Refuse,
+                arithmetic,
+                ..Plan::safe()
+            };
+            let given = Tracer::new(plan, level).render(&scene, &square([1.0, 1.0, 30.0])).map(|_| ());
+            assert_eq!(given, Ok(()), "{side} balls of {radius} on a side, from {offset}; {plan}");
+            scenes += 1;
+        }
+    }
+    assert_eq!(scenes, 8 * 3 * 3 * 3);
+}
+
+/// Ids need more than 16 bits from 65,536 spheres on, which the nearest ones have here: lists, tiles and what f64 is asked about must hold
+/// them in full. A thousand of them are there twice, so that no ray is sure of them.
+#[test]
+fn ids_of_more_than_two_bytes_are_seen() {
+    let back = (0..66_000u32).map(|i| {
+        let [x, y, z] = [i % 41, i / 41 % 41, i / 1_681].map(|at| at as f32);
+        ball([x, y, -z], 0.3)
+    });
+    let twins = (0..2_000u32).map(|i| ball([(i / 2 % 40) as f32, (i / 80) as f32, 3.0], 0.45));
+    let front = (0..2_000u32).map(|i| ball([(i % 40) as f32 + 0.5, (i / 40) as f32 + 0.5, 2.0], 0.45));
+    let spheres: Vec<Sphere> = back.chain(twins).chain(front).collect();
+    assert_eq!(spheres.len(), 70_000);
+    let scene = Scene::new(spheres, [0; 3], contract::DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(24, 16).expect("small");
+    let (du, dv) = ([1.05, 0.0, 0.0], [0.0, -1.05, 0.0]);
+    let camera = Camera::new([20.1, 12.2, 30.0], [-12.6, 8.4, -27.0], du, dv, size).expect("a camera");
+    let truth = reference::Tracer::new(Naive::Exact).render(&scene, &camera).expect("small").image;
+    let seen = |from: u32, to: u32| truth.ids.iter().filter(|id| (from..to).contains(*id)).count();
+    let (twins, front) = (seen(66_000, 68_000), seen(68_000, 70_000));
+    eprintln!("{twins} pixels show twins, {front} show others of long ids");
+    assert!(twins > 50 && front > 20, "too little was at stake: {twins} and {front}");
+    let certified = Plan { arithmetic: Arithmetic::Certified, ..Plan::safe() };
+    for plan in [
+        Plan::fast(),
+        Plan::for_scene(&scene).plan,
+        Plan { packet: Packet::Block, ..Plan::fast() },
+        certified,
+    ] {
+        let given = Tracer::new(plan, Level::best().expect("a level")).render(&scene, &camera);
+        let given = given.expect("nothing to refuse");
+        assert_eq!(given.image.ids, truth.ids, "{plan}");
+        assert!(
+            given.image.t.iter().zip(&truth.t).all(|(one, other)| one.to_bits() == other.to_bits()),
+            "{plan}"
+        );
+        assert!(given.counts.asked_f64 >= twins as u64, "{plan}: {:?}", given.counts);
+    }
+}
+
 /// The variable that says that the test below is run with little memory.
 const LITTLE_MEMORY: &str = "CGT_LITTLE_MEMORY";
 
@@ -660,10 +729,12 @@ fn more_ids_are_asked_for_than_fit() {
         let tracer = Tracer::new(plan, Level::best().expect("a level"));
         let image = tracer.render(&scene, &camera).expect("a coarser grid").image;
         eprintln!("{} pixels hit", image.ids.iter().filter(|id| **id != MISS).count());
+        let strict = Tracer::new(Plan { on_event: OnEvent::Refuse, ..plan }, Level::SCALAR);
+        eprintln!("refused: {}", strict.render(&scene, &camera).expect_err("as many cells as asked for"));
     }
 }
 
-/// A grid that memory cannot hold is made coarser: 64 cells on an axis would list 3 GB of ids, 32 an eighth of it.
+/// A grid that memory cannot hold is made coarser: 64 cells on an axis would list 3 GB of ids, 32 an eighth of it. A plan that refuses is told.
 #[test]
 #[cfg(target_os = "linux")]
 fn ids_that_do_not_fit_make_a_grid_coarser() {
@@ -676,6 +747,7 @@ fn ids_that_do_not_fit_make_a_grid_coarser() {
         output.status.success() && said.contains(" pixels hit") && !said.contains("\n0 pixels"),
         "{said}"
     );
+    assert!(said.contains("refused: the lists of a grid of [64, 64, 64] cells do not fit"), "{said}");
 }
 
 /// Makes the matrix and no more; run by the next test where there is no data.

@@ -669,6 +669,49 @@ fn levels_have_names() {
     }
 }
 
+/// The standard library asks the processor itself: what it has all instructions of is a level, and nothing else is.
+#[test]
+#[cfg(target_arch = "x86_64")]
+fn levels_are_those_that_the_processor_has() {
+    macro_rules! has {
+        ($($feature:tt),*) => { [$(std::arch::is_x86_feature_detected!($feature)),*].iter().all(|has| *has) };
+    }
+    let sse2 = has!("sse2", "fxsr");
+    let sse42 = sse2 && has!("sse4.2", "cmpxchg16b", "popcnt");
+    // x86-64-v3, and Ice Lake's server.
+    let avx2 = sse42 && has!("avx2", "bmi1", "bmi2", "f16c", "fma", "lzcnt", "movbe", "xsave");
+    let avx512 = avx2
+        && has!(
+            "adx",
+            "aes",
+            "avx512bitalg",
+            "avx512bw",
+            "avx512cd",
+            "avx512dq",
+            "avx512f",
+            "avx512ifma",
+            "avx512vbmi",
+            "avx512vbmi2",
+            "avx512vl",
+            "avx512vnni",
+            "avx512vpopcntdq",
+            "gfni",
+            "pclmulqdq",
+            "rdrand",
+            "rdseed",
+            "sha",
+            "vaes",
+            "vpclmulqdq",
+            "xsavec",
+            "xsaveopt",
+            "xsaves"
+        );
+    let all = [("scalar", true), ("sse2", sse2), ("sse4.2", sse42), ("avx2", avx2), ("avx512", avx512)];
+    let has: Vec<_> = all.into_iter().filter(|(_, has)| *has).map(|(name, _)| name).collect();
+    let names: Vec<_> = Level::available().iter().map(|level| level.name()).collect();
+    assert_eq!(names, has, "levels, and what the processor has");
+}
+
 /// Says which level is the best; run by the next test with the variable set.
 #[test]
 fn the_best_level_is_available() {

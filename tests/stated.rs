@@ -3,18 +3,21 @@
 
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
 use optimized::bound::{NEAREST, Rule, TRUNCATING};
-use optimized::certain::Side;
+use optimized::camera::Block;
+use optimized::certain::{Side, sides};
 use optimized::crew::Crew;
 use optimized::frame::tile_size;
-use optimized::frustum::{Frustum, Heading};
+use optimized::frustum::{Bundle, Frustum, Heading, Slices};
 use optimized::grid::{Bounds, Grid, Memory, widen};
 use optimized::host::Scalar;
 use optimized::machine::LANES;
 use optimized::margin::{in_range, reach, sphere_in_range};
 use optimized::plan::{
-    Arithmetic, Cells, Culling, Loop, Margins, OnEvent, Packet, Plan, Resolution, Sharing, Voxelizer,
+    Arithmetic, Cells, Culling, Loop, Margins, OnEvent, Packet, Plan, Reason, Resolution, Sharing, Voxelizer,
 };
-use optimized::seen::{Counts, Seen};
+use optimized::seen::{Counts, Seen, Worker};
+use optimized::silhouette::Outline;
+use optimized::stripe::{NO_COLUMN, Painter, Stripe};
 use optimized::{Event, Events, Form, Known, Level, RenderError, Tracer, cull, double, frustum, tile};
 use rand::{Rng, RngExt};
 use std::collections::{BTreeSet, HashSet};
@@ -149,6 +152,33 @@ fn cameras_are_in_range_where_it_says() {
     assert!(judged.iter().all(|n| *n > 5_000), "too few: {judged:?}");
 }
 
+/// Directions are rounded by a part of their length, so a picture's plane that is very near the eye for the length of its directions is out of
+/// range sooner: by 10⁻⁵ of the longest.
+#[test]
+fn cameras_that_nearly_touch_their_picture_are_in_range_where_it_says() {
+    let seed = seed();
+    let mut rng = generator(seed, 18);
+    let size = Size::new(16, 16).expect("small");
+    for case in 0..2_000 {
+        // Directions are about one long.
+        let near = power(&mut rng, -15.6, -10.0);
+        let (x, y) = (rng.random_range(0.2..0.6), rng.random_range(0.2..0.6));
+        let turn = case % 3;
+        for (off, within) in [(1.003, true), (0.997, false)] {
+            let longest = 1.01 * (length([x, y, near]) + 2.0 * 16.0 * 0.01);
+            let scale = off * 2f64.powi(-20) / (0.99 * near - 1e-5 * longest);
+            #[allow(clippy::cast_possible_truncation, reason = "any f32 will do")]
+            let scaled =
+                |v: [f64; 3]| -> [f32; 3] { std::array::from_fn(|i| (v[(i + turn) % 3] * scale) as f32) };
+            let (corner, du, dv) =
+                (scaled([-x, y, -near]), scaled([0.01, 0.0, 0.0]), scaled([0.0, -0.01, 0.0]));
+            let camera = Camera::new([0.5; 3], corner, du, dv, size).expect("valid");
+            let given = in_range(Arithmetic::Certified, &[], &camera);
+            assert_eq!(given, within, "{near:e} of the longest, case {case} of CGT_SEED={seed}: {camera:?}");
+        }
+    }
+}
+
 /// Positions up to 2³⁰, radii from 2⁻³⁰ to 2³⁰, on the SPU from 2⁻¹⁴: at each end, and one step beyond.
 #[test]
 fn spheres_are_in_range_where_it_says() {
@@ -273,6 +303,53 @@ fn root(u: f64, r: f64, m: f64) -> f64 {
     let half = ((1.0 + eta) * (1.0 + u).powi(3) - 1.0) * widest;
     let ends = 2.0 * u * (1.0 + u) * (r + m + widest + foot + half);
     (foot + half + ends) * (1.0 + u) / (1.0 - u)
+}
+
+/// Outlines are the slopes of the tangents, and 256u (1 + |slope|) wider at either end.
+#[test]
+fn outlines_are_widened_as_derived() {
+    let seed = seed();
+    let mut rng = generator(seed, 19);
+    for case in 0..20_000 {
+        let scale = power(&mut rng, -15.0, 15.0);
+        let (far, wide) = (power(&mut rng, 1.1, 12.0), rng.random_range(-1.5..1.5));
+        #[allow(clippy::cast_possible_truncation, reason = "any f32 will do")]
+        let [a, y, r] = [far * scale, wide * far * scale, scale].map(|x| x as f32);
+        let outline = Outline::new(Scalar, [a, y, y].map(|x| [x; LANES]), [r; LANES]);
+        let [a, y, r] = [a, y, r].map(f64::from);
+        let square = (a - r) * (a + r);
+        for side in 0..2 {
+            for (sign, given) in [(-1.0, outline.lo[side][0]), (1.0, outline.hi[side][0])] {
+                let slope = (a * y + sign * r * (square + y * y).sqrt()) / square;
+                let wider = (f64::from(given) - slope) * sign / (1.0 + slope.abs()) / NEAREST;
+                // Its own roundings are less than a fifth of that.
+                assert!(
+                    (208.0..304.0).contains(&wider),
+                    "wider by {wider}u; A {a:e}, Y {y:e}, R {r:e}, case {case} of CGT_SEED={seed}"
+                );
+            }
+        }
+    }
+}
+
+/// Tiles know the eye's side from 16u of both squares on: 32u of one, where they are nearly the same, at every scale.
+#[test]
+fn the_side_is_known_from_where_it_says() {
+    let u = NEAREST as f32;
+    for exponent in -60..=60 {
+        let one = 2f32.powi(exponent);
+        for (ff, side) in [
+            (1.0 + 34.0 * u, Side::Outside),
+            (1.0 + 32.0 * u, Side::Unknown),
+            (1.0, Side::Unknown),
+            (1.0 - 32.0 * u, Side::Unknown),
+            (1.0 - 33.0 * u, Side::Inside),
+        ] {
+            let [outside, inside] = sides(Scalar, [ff * one; LANES], [one; LANES]);
+            let wanted = (side == Side::Outside, side == Side::Inside);
+            assert_eq!((outside[0], inside[0]), wanted, "{ff:e} times the radius' square, {one:e}");
+        }
+    }
 }
 
 /// Of each sphere the certified stage has the bound of its distance from the eye, wherever the two are, and the eye's side at every scale: on the
@@ -877,6 +954,77 @@ fn slices_are_padded_for_the_widening() {
     }
 }
 
+/// Cells in the rectangles of all slices.
+fn cells_of(slices: &Slices) -> u64 {
+    let wide = |side: usize, slice: usize| {
+        u64::try_from(slices.last[side][slice] - slices.first[side][slice] + 1).unwrap_or(0)
+    };
+    (0..slices.count).map(|slice| wide(0, slice) * wide(1, slice)).sum()
+}
+
+/// Whoever walks, a block or a tile, comes to the cells of padded slices, and to no others: seen far from zero, where the pad decides of one in
+/// some packets.
+#[test]
+fn packets_come_to_the_cells_of_padded_slices() {
+    let seed = seed();
+    let mut rng = generator(seed, 20);
+    let size = Size::new(4, 4).expect("small");
+    let corner = |i: usize, corner: usize| if corner >> i & 1 == 0 { 8192.0 } else { 8208.0 };
+    let balls =
+        (0..8).map(|at| Sphere { center: [0, 1, 2].map(|i| corner(i, at)), radius: 0.01, color: [1; 3] });
+    let scene = Scene::new(balls.collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let (mut walked, mut padded) = ([0u64; 2], [0u64; 2]);
+    for case in 0..600 {
+        let heading = Heading::new(case % 3, case % 2 == 0);
+        // From along the major axis and the other two.
+        let placed = |v: [f32; 3]| {
+            let mut placed = [0.0; 3];
+            (0..3).for_each(|i| placed[heading.order[i]] = v[i]);
+            placed
+        };
+        let sense = if heading.forward { 1.0 } else { -1.0 };
+        let mut any = |most: f32| rng.random_range(-most..most);
+        let eye = placed([8200.0 - sense * 11.0, 8200.0 + any(7.0), 8200.0 + any(7.0)]);
+        let toward = placed([sense, any(0.4), any(0.4)]);
+        let (du, dv) = (placed([0.0, 0.003, 0.0]), placed([0.0, 0.0, 0.003]));
+        let camera = Camera::new(eye, toward, du, dv, size).expect("valid");
+        let resolution = Resolution::Fixed(16);
+        let blocks = [Arithmetic::Certified, Arithmetic::Rounded(Form::Perpendicular)]
+            .map(|arithmetic| Plan { arithmetic, resolution, ..Plan::safe() });
+        let tiles = Plan { packet: Packet::Tile { side: 1 }, resolution, ..Plan::fast() };
+        for plan in [tiles, blocks[0], blocks[1]] {
+            let (counts, image) = costs(&scene, &camera, plan, 1);
+            if image.ids.iter().any(|id| *id != MISS) {
+                continue;
+            }
+            let (mut memory, mut events) = (Memory::default(), Events::default());
+            let seen = Seen::new(Scalar, plan, &scene, &camera, &mut memory, &mut events, &Crew::alone());
+            let grid = seen.expect("nothing to refuse").grid.expect("in range");
+            let dir = |x, y| reference::Ray::of_pixel(&camera, x, y).dir;
+            let is_tile = plan == tiles;
+            let frustum = if is_tile {
+                let corners = [[0, 0], [3, 0], [0, 3], [3, 3]].map(|[x, y]| heading.along(dir(x, y)));
+                let slack = tile::slack(NEAREST as f32, &camera);
+                Frustum {
+                    heading,
+                    slopes: tile::range(Scalar, slack, corners.map(|c| c.map(|x| [x; LANES]))),
+                }
+            } else {
+                let lanes =
+                    [0, 1, 2].map(|i| std::array::from_fn(|lane| dir(lane as u32 % 4, lane as u32 / 4)[i]));
+                Bundle::of_block(Scalar, &Block::new(Scalar, lanes)).expect("one axis").frustum
+            };
+            let [derived, none] = [Margins::Derived, Margins::None]
+                .map(|margins| cells_of(&frustum.slices(Scalar, eye, &grid, margins)));
+            assert_eq!(counts.cells, derived, "case {case} of CGT_SEED={seed}: {camera:?}, {plan}");
+            walked[usize::from(is_tile)] += 1;
+            padded[usize::from(is_tile)] += u64::from(derived != none);
+        }
+    }
+    eprintln!("CGT_SEED={seed}: {walked:?} blocks and tiles, of which the pad decides in {padded:?}");
+    assert!(padded.iter().all(|n| *n > 20), "too little was at stake: {padded:?} of {walked:?}");
+}
+
 /// The range of slopes between directions is that of their slopes, and beyond it (4 s/A + 16u) (1 + |slope|), within −1 to 1; all of it where
 /// A is not above 1024 s.
 #[test]
@@ -1052,6 +1200,10 @@ fn errors_are_said_with_their_numbers() {
             RenderError::Resolution { cells: 241 },
             "a grid of 241 cells on an axis; it must be from 1 to 240".to_owned(),
         ),
+        (
+            RenderError::Lists { cells: [47, 53, 59] },
+            "the lists of a grid of [47, 53, 59] cells do not fit, in 32 bits or in memory".to_owned(),
+        ),
         (RenderError::Tile { plan }, tiles),
         (
             RenderError::KnownId { id: 29, spheres: 23 },
@@ -1065,6 +1217,33 @@ fn errors_are_said_with_their_numbers() {
     for (error, words) in errors {
         assert_eq!(error.to_string(), words, "{error:?}");
     }
+}
+
+/// So do the reasons of a plan, of which each limit is another number than what it limits.
+#[test]
+fn reasons_are_said_with_their_numbers() {
+    for (reason, words) in [
+        (
+            Reason::OutOfRange,
+            "a sphere lies beyond the range of the margins: all spheres meet all rays, in 4x4 blocks",
+        ),
+        (
+            Reason::Few { spheres: 61 },
+            "61 spheres, fewer than 50000: large tiles see their candidates in one round",
+        ),
+        (
+            Reason::Many { spheres: 67_000 },
+            "67000 spheres, not fewer than 50000: small tiles need fewer rounds",
+        ),
+    ] {
+        assert_eq!(reason.to_string(), words);
+    }
+}
+
+/// As many events are kept as it says.
+#[test]
+fn ten_thousand_events_are_kept() {
+    assert_eq!(Events::KEPT, 10_000);
 }
 
 /// Plans that promise the naive picture, and words in which no two plans are alike.
@@ -1177,6 +1356,48 @@ fn workers_that_cannot_be_had_are_refused() {
     assert!(output.status.success() && said.contains("no threads for 5000 workers: "), "{said}");
 }
 
+/// Asks for frames, and for work within another pool, where no further thread can be had; run by the next test.
+#[test]
+fn no_further_thread_can_be_had() {
+    if std::env::var_os(LITTLE_MEMORY).is_none() {
+        return;
+    }
+    let balls = scattered(&mut generator(1, 0), 40, [3.0; 3]);
+    let scene = Scene::new(balls, [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(64, 64).expect("small");
+    let (du, dv) = ([0.02, 0.0, 0.0], [0.0, -0.02, 0.0]);
+    let camera = Camera::new([3.0, 3.0, 12.0], [-0.64, 0.64, -1.0], du, dv, size).expect("valid");
+    let mut session = Tracer::new(Plan::fast(), Level::SCALAR).workers(2).session().expect("one thread more");
+    let mut ids = Vec::new();
+    for _ in 0..3 {
+        ids.clone_from(&session.render(&scene, &camera).expect("its own workers are enough").image.ids);
+    }
+    Crew::new(2).expect_err("there is room for another thread");
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).stack_size(1 << 22).build();
+    let pool = pool.expect("a small one");
+    let alone =
+        pool.install(|| session.render(&scene, &camera).expect("by the caller alone").image.ids.clone());
+    assert_eq!(alone, ids);
+    let hits = alone.iter().filter(|id| **id != MISS).count();
+    eprintln!("no further thread for {hits} pixels");
+}
+
+/// A session asks for its threads once and not for each frame; and who gets no thread to wait in, within another pool, works alone. Stacks
+/// of 2 GiB in 6 GiB: the test's own and one more have room, and a third has not.
+#[test]
+#[cfg(target_os = "linux")]
+fn no_thread_is_asked_for_in_vain() {
+    let script =
+        "ulimit -v 6291456 && exec \"$0\" --exact no_further_thread_can_be_had --nocapture --test-threads 2";
+    let mut child = std::process::Command::new("sh");
+    child.args(["-c", script]).arg(std::env::current_exe().expect("this program"));
+    child.env(LITTLE_MEMORY, "1").env("RUST_MIN_STACK", (2u64 << 30).to_string());
+    let output = child.output().expect("a shell");
+    let said = String::from_utf8_lossy(&output.stderr);
+    let told = said.contains("no further thread for ") && !said.contains("for 0 pixels");
+    assert!(output.status.success() && told, "{said}");
+}
+
 /// A stripe is as high as a tile, but of several workers each may take eight, in whole patches of 32 scanlines.
 #[test]
 fn stripes_are_as_high_as_it_says() {
@@ -1199,6 +1420,7 @@ fn stripes_are_as_high_as_it_says() {
         (tile(32), 528, 2, [128, 64]),
         (tile(32), 10, 2, [128, 32]),
         (tile(32), 1080, usize::MAX / 8, [128, 32]),
+        (tile(32), 1080, usize::MAX, [128, 32]),
     ] {
         let given = tile_size(packet, rows, workers);
         assert_eq!(given, [side, height], "{packet:?}, {rows} rows, {workers} workers");
@@ -1222,6 +1444,55 @@ fn times_are_parts_of_the_frame() {
         // Lists of so many spheres, boxed one by one, take nearly all of it.
         assert!(plan == Plan::fast() || times.build > whole * 3 / 5, "{plan}: {times:?} of {whole:?}");
     }
+}
+
+/// What was cleared is all misses, and known to be: the next frame clears none of it again.
+#[test]
+fn what_is_cleared_is_not_cleared_again() {
+    let scene = Scene::new(vec![], [7, 8, 9], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(12, 8).expect("small");
+    let camera = Camera::new([0.0; 3], [-1.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0], size).expect("valid");
+    let (mut ids, mut t, mut rgba) = ([3; 96], [2.0; 96], [[1; 4]; 96]);
+    let mut columns = [[4, 8], [0, 12]];
+    let mut stripe =
+        Stripe { y: 0, width: 12, ids: &mut ids, t: &mut t, rgba: &mut rgba, columns: &mut columns };
+    Painter::new(Scalar, &scene, &camera).clear(&mut stripe);
+    assert_eq!(columns, [NO_COLUMN; 2]);
+    for (i, id) in ids.iter().enumerate() {
+        let within = i >= 48 || (4..8).contains(&(i % 12));
+        let wanted = if within { (MISS, f32::INFINITY, [7, 8, 9, 255]) } else { (3, 2.0, [1; 4]) };
+        assert_eq!((*id, t[i], rgba[i]), wanted, "pixel {i}");
+    }
+}
+
+/// What a packet may hit is forgotten before the next: a worker holds no more after a hundred packets than after one.
+#[test]
+fn a_worker_holds_what_one_packet_may_hit() {
+    let nested = (1..=20u8).map(|i| Sphere { center: [0.01; 3], radius: i.into(), color: [1; 3] });
+    let scene = Scene::new(nested.collect(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(4, 4).expect("small");
+    let (du, dv) = ([0.1, 0.0, 0.0], [0.0, -0.1, 0.0]);
+    let camera = Camera::new([0.0; 3], [-0.2, 0.2, -1.0], du, dv, size).expect("valid");
+    let plan = Plan { packet: Packet::Block, ..Plan::fast() };
+    let (mut memory, mut events) = (Memory::default(), Events::default());
+    let seen = Seen::new(Scalar, plan, &scene, &camera, &mut memory, &mut events, &Crew::alone());
+    let seen = seen.expect("nothing to refuse");
+    let dir = |lane: usize| reference::Ray::of_pixel(&camera, lane as u32 % 4, lane as u32 / 4).dir;
+    let block = Block::new(Scalar, [0, 1, 2].map(|i| std::array::from_fn(|lane| dir(lane)[i])));
+    let mut worker = Worker::default();
+    // The ids are a private part of it, and told by its words alone.
+    let held = |worker: &Worker| {
+        let words = format!("{worker:?}");
+        let (_, list) = words.split_once("possible: [").expect("it holds ids");
+        let (list, _) = list.split_once(']').expect("a list");
+        list.split(',').count()
+    };
+    seen.trace(Scalar, scene.spheres(), &block, None, &mut worker);
+    let one = held(&worker);
+    (0..100).for_each(|_| {
+        seen.trace(Scalar, scene.spheres(), &block, None, &mut worker);
+    });
+    assert_eq!((one, held(&worker)), (20, 20), "{worker:?}");
 }
 
 /// What f64 is not sure of has two ends that differ, so that nobody takes one of them for t.

@@ -581,6 +581,14 @@ fn what_is_known_must_be_of_the_frame() {
 }
 
 #[test]
+#[should_panic(expected = "index out of bounds")]
+fn an_image_that_lacks_ids_is_not_known() {
+    let mut image = Image::new(Size::new(8, 8).expect("a size"), [0; 3]).expect("small");
+    image.ids.truncate(63);
+    let _ = Known::of(&image);
+}
+
+#[test]
 fn a_plan_is_chosen_for_reasons() {
     let ball = |i: u16| Sphere { center: [f32::from(i), 0.0, 0.0], radius: 0.4, color: [9; 3] };
     let scene = |spheres: Vec<Sphere>| Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");

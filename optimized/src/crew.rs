@@ -13,7 +13,8 @@ pub struct Crew {
 }
 
 impl Crew {
-    /// So many workers; none is as good as one.
+    /// So many workers; none is as good as one. Rayon gives no more than its `max_num_threads` beside the caller, as
+    /// [`Crew::size`] says.
     ///
     /// # Errors
     /// [`RenderError::Workers`] if the system gives no thread.
@@ -38,7 +39,8 @@ impl Crew {
         1 + self.others.as_ref().map_or(0, |others| others.current_num_threads())
     }
 
-    /// What each worker makes of its share of tasks: it takes the next one, for as long as there is one.
+    /// What each worker makes of its share of tasks: it takes the next one, for as long as there is one. Asked by a worker of some other
+    /// pool, it takes a thread more, to wait in; if the system gives none, the caller does all tasks alone.
     ///
     /// # Panics
     /// If `work` does.
@@ -74,8 +76,14 @@ impl Crew {
         if rayon::current_thread_index().is_some() {
             // A worker of some other pool would take up that pool's tasks while it waits, frame within frame until its stack is full.
             // A thread of no pool just waits.
-            std::thread::scope(|scope| scope.spawn(all).join())
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+            let waiting = std::thread::scope(|scope| {
+                let thread = std::thread::Builder::new().spawn_scoped(scope, all);
+                thread.map(std::thread::ScopedJoinHandle::join)
+            });
+            match waiting {
+                Ok(joined) => joined.unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+                Err(_) => one(),
+            }
         } else {
             all();
         }

@@ -94,6 +94,13 @@ pub enum RenderError {
         /// As asked for.
         cells: u8,
     },
+    /// Lists that do not fit: more ids than u32 can number or memory holds, in a single cell or in as many as a plan asks for that refuses
+    /// a coarser grid.
+    #[error("the lists of a grid of {cells:?} cells do not fit, in 32 bits or in memory")]
+    Lists {
+        /// Cells on each axis.
+        cells: [i32; 3],
+    },
     /// A plan with tiles that lacks what these need.
     #[error("tiles need spheres listed once, by centre in lists, certified arithmetic, derived margins, and 1 to {limit} blocks on a side; the plan is: {plan}", limit = crate::tile::MAX_SIDE)]
     Tile {

@@ -61,7 +61,7 @@ impl Known {
     /// From a picture that has been made.
     ///
     /// # Panics
-    /// Never: a picture has fewer pixels than u32 can number.
+    /// If the image has fewer ids than its size says, which none has that a tracer gave.
     #[must_use]
     pub fn of(image: &Image) -> Self {
         let (width, height) = (image.size.width(), image.size.height());
@@ -217,7 +217,7 @@ fn stripe_height(side: u32, rows: u32, workers: usize) -> u32 {
     if workers <= 1 || side <= PATCH {
         return side;
     }
-    let stripes = u32::try_from(8 * workers).unwrap_or(u32::MAX);
+    let stripes = u32::try_from(workers.saturating_mul(8)).unwrap_or(u32::MAX);
     (rows / stripes).next_multiple_of(PATCH).clamp(PATCH, side)
 }
 

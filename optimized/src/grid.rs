@@ -184,10 +184,11 @@ fn unrank(rank: i64) -> f32 {
 
 impl Grid {
     /// A grid over the balls of all spheres, of which there is at least one, as the plan has it. Events are added to the
-    /// list; the plan's fall-backs are taken.
+    /// list; the plan's fall-backs are taken. Where its lists do not fit it is made coarser ([`Resolution`]).
     ///
     /// # Errors
-    /// [`RenderError::Refused`] if the plan refuses an event, [`RenderError::Resolution`] for one that is out of range.
+    /// [`RenderError::Refused`] if the plan refuses an event, [`RenderError::Resolution`] for one that is out of range,
+    /// [`RenderError::Lists`] if there is no coarser grid, or the plan refuses one that has not the cells asked for.
     pub fn build<M: Machine>(
         m: M,
         plan: &Plan,
@@ -238,6 +239,10 @@ impl Grid {
             }
             if let Some(storage) = fill_lists(m, &plan, &axes, balls, &cell_boxes) {
                 return Ok(Self { axes, widen, large: Vec::new(), storage });
+            }
+            let is_asked_for = matches!(plan.resolution, Resolution::Fixed(_));
+            if n == [1; 3] || (is_asked_for && plan.on_event == OnEvent::Refuse) {
+                return Err(RenderError::Lists { cells: axes.map(|axis| axis.n) });
             }
             n = n.map(|n| (n / 2).max(1));
         }
@@ -400,9 +405,7 @@ fn fill_lists<M: Machine>(
     offsets.push(u32::try_from(entries).ok()?);
     let mut next = offsets.clone();
     let (entries, mut ids) = (usize::try_from(entries).ok()?, Vec::<u32>::new());
-    if ids.try_reserve_exact(entries).is_err() && !is_coarsest {
-        return None;
-    }
+    ids.try_reserve_exact(entries).ok()?;
     ids.resize(entries, 0);
     for ((id, cells), ball) in (0..).zip(boxes).zip(balls) {
         cells.for_each(plan.voxelizer, axes, ball, |cell| {

@@ -156,6 +156,24 @@ pub struct Session {
 }
 
 impl Session {
+    /// The plan that it traces by.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        self.tracer.plan
+    }
+
+    /// The level that it runs at.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.tracer.level
+    }
+
+    /// Its workers, the calling thread included.
+    #[must_use]
+    pub fn workers(&self) -> usize {
+        self.crew.size()
+    }
+
     /// Renders a frame.
     ///
     /// # Errors

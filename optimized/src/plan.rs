@@ -103,7 +103,9 @@ impl From<Form> for Arithmetic {
 /// Cells on each axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Resolution {
-    /// So many on each axis, from 1 to [`MAX_CELLS`](crate::grid::MAX_CELLS). The paper's grid has 16.
+    /// So many on each axis, from 1 to [`MAX_CELLS`](crate::grid::MAX_CELLS). The paper's grid has 16. Lists of more than 2³² ids, or than
+    /// memory holds, do not fit: then there are half as many on each axis, and so on until they do, and the picture stays; a plan that
+    /// refuses is told instead, [`RenderError::Lists`](crate::RenderError::Lists).
     Fixed(u8),
     /// Chosen for the scene, at most so many on an axis.
     UpTo(u8),
@@ -195,8 +197,8 @@ impl Plan {
         }
     }
 
-    /// The cheapest plan that gives the exact picture of a scene, with the reasons. It reads no sphere but the scene's length and, of
-    /// what margins need, their range: a millionth of a frame's time.
+    /// The cheapest plan that gives the exact picture of a scene, with the reasons. It reads each sphere once, for the range of the margins,
+    /// as every frame does again.
     #[must_use]
     pub fn for_scene(scene: &Scene) -> Chosen {
         let (spheres, fast) = (scene.spheres(), Self::fast());

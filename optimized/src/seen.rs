@@ -176,6 +176,9 @@ impl Seen {
 
     /// t and id of each ray of a block, in the scene that this was made of. If it is known which spheres own its pixels, they alone
     /// are met.
+    ///
+    /// # Panics
+    /// If it was made for tiles and has a grid: then no sphere is prepared ([`Seen::spheres`]).
     #[inline(always)]
     pub fn trace<M: Machine>(
         &self,

@@ -161,6 +161,14 @@ sphere {<9,0,0>,1}
         (Some(13), "a comment that does not end; what follows is passed over"),
     ];
     assert_eq!(told(&loaded), want);
+    // What stands within braces of an earlier line may be moved there, or cut.
+    let text = b"sphere {<1,0,0>,1}\nunion {\nsphere {<2,0,0>,1}\n#debug \"}\" // }\nsphere {<3,0,0>,1}\n  \
+                 translate x*9 }\n}\nsphere {<4,0,0>,1}\n";
+    let loaded = ok("a.inc", text);
+    assert_eq!(xs(&loaded), [1.0, 2.0, 3.0, 4.0]);
+    let told = told(&loaded);
+    let [(Some(3), warning)] = told[..] else { panic!("{told:?}") };
+    assert!(warning.starts_with("2 spheres within braces"), "{warning}");
     let error =
         read_bytes("a.inc", b"/* , */ sphere {<1,nan,3>,1}", None).expect_err("no number").to_string();
     assert!(error.starts_with("a.inc:1:20: y is \"nan\""), "columns are those of the file: {error}");

@@ -1,4 +1,4 @@
-//! The camera: an eye and a grid of directions, as ten vectors' worth of f32 data. How to aim one at a scene
+//! The camera: an eye and a grid of directions, as four vectors of f32 and a size. How to aim one at a scene
 //! is no business of the contract (the crate `verify` does it); how pixel (x, y) gets its ray is rule 1.
 
 use crate::Size;

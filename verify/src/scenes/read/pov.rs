@@ -1,7 +1,8 @@
 //! Lists of spheres written for POV-Ray, one a line: `sphere {<x,y,z>,r}`, where r may be the name of a constant.
 //! This is no reader of the scene language: every other line is passed over, and a radius that is a name is drawn as
 //! [`NAMED_RADIUS`] with a warning. A line that begins as a sphere and is none is refused; a sphere that stands elsewhere in a line,
-//! as in `union { sphere {<x,y,z>,r} }`, is passed over with a warning. What is commented out, by `//` or `/* */`, is not there.
+//! as in `union { sphere {<x,y,z>,r} }`, is passed over with a warning. One on a line of its own, within braces that were opened before, is
+//! drawn where it stands there, with a warning too. What is commented out, by `//` or `/* */`, is not there.
 //!
 //! POV-Ray's coordinates are left-handed, and lists like the teapot's have z up. y and z are exchanged, which makes
 //! them right-handed, so that pictures are not mirrored, with y up.
@@ -20,16 +21,32 @@ pub(super) fn read(input: Input<'_>) -> Result<Loaded, ReadError> {
     let Input { file, bytes, .. } = input;
     let mut frames = Frames::new(input);
     let mut spheres = Vec::new();
-    let (mut named, mut passed, mut comment) = (None, None, Comment::default());
+    let (mut named, mut passed, mut within, mut comment) = (None, None, None, Comment::default());
+    let mut depth = 0_usize;
     for line in Lines::new(file, "POV-Ray spheres", bytes)? {
         let code = comment.blanked(line);
         let line = Line { text: &code, ..line };
         let rest = line.text.trim_ascii_start().strip_prefix(b"sphere");
         if rest.and_then(<[u8]>::first).is_some_and(|b| *b == b'{' || b.is_ascii_whitespace()) {
             frames.put(&mut spheres, sphere(line, &mut named)?, 0)?;
+            if depth > 0 {
+                within.get_or_insert((line.number, 0)).1 += 1;
+            }
         } else if has_sphere(line.text) {
             passed.get_or_insert((line.number, 0)).1 += 1;
         }
+        for brace in line.text {
+            match brace {
+                b'{' => depth += 1,
+                b'}' => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+        }
+    }
+    if let Some((line, number)) = within {
+        let said =
+            "spheres within braces that were opened before: what moves or cuts them there is not heeded";
+        frames.warn(Some(line), format!("{number} {said}"));
     }
     if let Some((line, lines)) = passed {
         frames.warn(Some(line), format!("{lines} lines with a sphere that do not begin with it passed over"));
