@@ -298,6 +298,10 @@ fn curves_grow_and_are_checked() {
 
 // ---- the check itself ----
 
+fn exact(scene: &Scene, camera: &Camera) -> Image {
+    reference::Tracer::new(reference::Arithmetic::Exact).render(scene, camera).expect("it fits").image
+}
+
 struct Picture {
     scene: Scene,
     camera: Camera,
@@ -310,8 +314,7 @@ impl Picture {
         let size = contract::Size::new(70, 37).expect("a size");
         let camera = loaded.camera(&Framing { size: Some(size), ..Framing::default() }).expect("a camera");
         let scene = loaded.animation.frames()[0].clone();
-        let truth = reference::Tracer::new(reference::Arithmetic::Exact).render(&scene, &camera);
-        Self { truth: truth.expect("it fits").image, scene, camera }
+        Self { truth: exact(&scene, &camera), scene, camera }
     }
 
     /// Wrong pixels of an image with or without its colours.
@@ -392,8 +395,7 @@ fn who_states_nothing_is_neither_equal_nor_timed() {
     let picture = Picture::new();
     let speck = Sphere { center: [0.0; 3], radius: 1e-30, color: [200; 3] };
     let scene = Scene::new(vec![speck], [0; 3], DEFAULT_LIGHT).expect("valid");
-    let truth = reference::Tracer::new(reference::Arithmetic::Exact).render(&scene, &picture.camera);
-    let truth = truth.expect("it fits").image;
+    let truth = exact(&scene, &picture.camera);
     let pixels = picture.camera.size().pixels();
     assert!(truth.ids.iter().all(|&id| id == MISS), "the speck is seen, and the test is of another");
     let (ids, t) = (vec![0; pixels], vec![1.0; pixels]);
@@ -405,10 +407,10 @@ fn who_states_nothing_is_neither_equal_nor_timed() {
     assert_eq!(checked.verdict(), Verdict::Undecidable);
     assert!(!checked.passes(Kind::Peer, pixels));
 
-    let mut liar = Scripted::new(&truth);
+    let mut liar = Scripted::new(&scene, &truth);
     (liar.image.ids, liar.image.t, liar.kind, liar.oath) = (ids, t, Kind::Peer, within);
     let input = Input { name: "a speck", frame: 0, scene: &scene, camera: &picture.camera };
-    let (rows, _) = race(vec![Box::new(liar)], &input, &truth, TWICE, &silent).expect("nobody gives up");
+    let (rows, _) = race(vec![Box::new(liar)], &input, &truth, TWICE, 1, &silent).expect("nobody gives up");
     assert_eq!((rows[0].verdict, rows[0].not_stated, rows[0].timing), (Verdict::Undecidable, all, None));
     let remark = rows[0].remark.as_deref().unwrap_or_default();
     assert!(remark.contains("states nothing") && remark.contains(&all.to_string()), "{remark}");
@@ -439,24 +441,32 @@ fn only_others_may_lose_a_pixel_in_ten_thousand() {
 
 // ---- the clock, with contestants whose times are made up ----
 
-/// Shows a picture, the first frames of it as it is and later ones with one pixel changed, does something at each, and says what time it took.
+/// Shows a picture of a scene, the first times as it is and later with one pixel changed, of other scenes the exact one, does something at
+/// each frame, and says what time it took.
 struct Scripted {
     kind: Kind,
     oath: Oath,
+    scene: Scene,
     image: Image,
+    moved: Image,
     frames: usize,
     sound: usize,
     build: Duration,
     took: Duration,
-    at_each: Box<dyn Fn()>,
+    at_each: Box<dyn Fn(&Scene)>,
 }
 
 impl Scripted {
-    fn new(image: &Image) -> Self {
+    fn new(scene: &Scene, image: &Image) -> Self {
         let [build, took] = [1, 4].map(Duration::from_millis);
-        let (kind, oath, image) = (Kind::Naive, Oath::Exact, image.clone());
-        let (frames, sound, at_each) = (0, usize::MAX, Box::new(|| ()));
-        Self { kind, oath, image, frames, sound, build, took, at_each }
+        let (kind, oath, scene) = (Kind::Naive, Oath::Exact, scene.clone());
+        let (frames, sound, at_each) = (0, usize::MAX, Box::new(|_: &Scene| ()));
+        let [image, moved] = [image, image].map(Clone::clone);
+        Self { kind, oath, scene, image, moved, frames, sound, build, took, at_each }
+    }
+
+    fn of(picture: &Picture) -> Self {
+        Self::new(&picture.scene, &picture.truth)
     }
 }
 
@@ -477,13 +487,18 @@ impl Contestant for Scripted {
         self.oath
     }
 
-    fn frame(&mut self, _: &Scene, _: &Camera) -> Result<Frame<'_>, SubjectError> {
+    fn frame(&mut self, scene: &Scene, camera: &Camera) -> Result<Frame<'_>, SubjectError> {
         if self.frames == self.sound {
             self.image.rgba[3 * 70 + 5][0] ^= 1;
         }
         self.frames += 1;
-        (self.at_each)();
-        let Image { ids, t, rgba, .. } = &self.image;
+        (self.at_each)(scene);
+        let Image { ids, t, rgba, .. } = if *scene == self.scene {
+            &self.image
+        } else {
+            self.moved = exact(scene, camera);
+            &self.moved
+        };
         // Colours are painted by who promises them.
         let rgba = matches!(self.oath, Oath::Exact).then_some(rgba.as_slice());
         Ok(Frame { build: self.build, took: Some(self.took), layers: Layers { ids, t, rgba } })
@@ -500,8 +515,8 @@ fn silent(_: &str, _: u32) -> Box<dyn Fn() + Sync> {
 fn times_are_those_of_building_of_tracing_and_of_both() {
     let picture = Picture::new();
     let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
-    let scripted: Box<dyn Contestant> = Box::new(Scripted::new(&picture.truth));
-    let (rows, rounds) = race(vec![scripted], &input, &picture.truth, TWICE, &silent).expect("no failure");
+    let scripted: Box<dyn Contestant> = Box::new(Scripted::of(&picture));
+    let (rows, rounds) = race(vec![scripted], &input, &picture.truth, TWICE, 1, &silent).expect("no failure");
     assert_eq!((rounds, rows.len(), rows[0].verdict), (2, 1, Verdict::Equal));
     let timing = rows[0].timing.expect("it passed");
     assert!(timing.frames >= 2, "{} frames in two rounds", timing.frames);
@@ -523,11 +538,11 @@ fn of_many_ways_the_fastest_are_timed() {
     for order in [[1, 2, 3, 4, 5, 6], [6, 5, 4, 3, 2, 1], [3, 6, 1, 5, 2, 4]] {
         let way = |milliseconds| {
             let (build, took) = (Duration::ZERO, Duration::from_millis(milliseconds));
-            Box::new(Scripted { kind: Kind::Embree, build, took, ..Scripted::new(&picture.truth) })
+            Box::new(Scripted { kind: Kind::Embree, build, took, ..Scripted::of(&picture) })
                 as Box<dyn Contestant>
         };
         let entrants = order.map(way).into();
-        let (rows, _) = race(entrants, &input, &picture.truth, TWICE, &silent).expect("nobody gives up");
+        let (rows, _) = race(entrants, &input, &picture.truth, TWICE, 1, &silent).expect("nobody gives up");
         for (row, milliseconds) in rows.iter().zip(order) {
             let (timed, total) = (row.remark.is_none(), row.timing.expect("a heat at least").total);
             assert_eq!(timed, milliseconds <= 3, "{order:?}: {row:?}");
@@ -544,14 +559,14 @@ fn each_round_begins_with_another_and_each_turn_with_a_frame_that_is_not_counted
     let (tell, asked) = channel();
     let entrant = |name: char| {
         let tell = tell.clone();
-        let at_each = Box::new(move || {
+        let at_each = Box::new(move |_: &Scene| {
             tell.send(name).expect("somebody listens");
             std::thread::sleep(Duration::from_millis(20));
         });
-        Box::new(Scripted { at_each, ..Scripted::new(&picture.truth) }) as Box<dyn Contestant>
+        Box::new(Scripted { at_each, ..Scripted::of(&picture) }) as Box<dyn Contestant>
     };
     let entrants = vec![entrant('a'), entrant('b')];
-    let (rows, _) = race(entrants, &input, &picture.truth, TWICE, &silent).expect("nobody gives up");
+    let (rows, _) = race(entrants, &input, &picture.truth, TWICE, 1, &silent).expect("nobody gives up");
     // Before and after the rounds each is checked.
     assert_eq!(asked.try_iter().collect::<String>(), "ab aabb bbaa ab".replace(' ', ""));
     for row in rows {
@@ -565,7 +580,7 @@ fn who_is_wrong_in_a_later_frame_is_not_timed() {
     let picture = Picture::new();
     let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
     let fickle = |kind, sound| {
-        let scripted = Scripted { kind, sound, ..Scripted::new(&picture.truth) };
+        let scripted = Scripted { kind, sound, ..Scripted::of(&picture) };
         Box::new(scripted) as Box<dyn Contestant>
     };
     let entrants = vec![
@@ -574,7 +589,7 @@ fn who_is_wrong_in_a_later_frame_is_not_timed() {
         fickle(Kind::Naive, 0),
         fickle(Kind::Limit, 2),
     ];
-    let (rows, _) = race(entrants, &input, &picture.truth, TWICE, &silent).expect("nobody gives up");
+    let (rows, _) = race(entrants, &input, &picture.truth, TWICE, 1, &silent).expect("nobody gives up");
     let told: Vec<_> =
         rows.iter().map(|row| (row.kind, row.verdict, row.first_wrong, row.timing.is_some())).collect();
     let place = Some([5, 3]);
@@ -594,6 +609,136 @@ fn who_is_wrong_in_a_later_frame_is_not_timed() {
         remark(0)
     );
     assert!(!remark(2).contains("no longer"), "{}", remark(2));
+}
+
+/// Traces what it is given, but answers with what it had at the frame so many before: its first, if there were fewer.
+struct Late {
+    kind: Kind,
+    oath: Oath,
+    frames: Vec<Image>,
+    late: usize,
+}
+
+impl Contestant for Late {
+    fn name(&self) -> &str {
+        "late"
+    }
+
+    fn description(&self) -> String {
+        "made up".into()
+    }
+
+    fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    fn oath(&self) -> Oath {
+        self.oath
+    }
+
+    fn frame(&mut self, scene: &Scene, camera: &Camera) -> Result<Frame<'_>, SubjectError> {
+        self.frames.push(exact(scene, camera));
+        let Image { ids, t, .. } = &self.frames[(self.frames.len() - 1).saturating_sub(self.late)];
+        Ok(Frame { build: Duration::ZERO, took: None, layers: Layers { ids, t, rgba: None } })
+    }
+}
+
+/// It passes before the rounds and after them, with what it has kept.
+#[test]
+fn who_answers_with_an_earlier_frame_is_wrong_and_not_timed() {
+    let picture = Picture::new();
+    let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
+    let table = |scene: &Scene, camera: &Camera, kind| {
+        let (oath, frames) = (Oath::rounded(Rounding::TextbookF32), vec![exact(scene, camera)]);
+        Box::new(Late { kind, oath, frames, late: usize::MAX }) as Box<dyn Contestant>
+    };
+    let entrants = vec![
+        table(&picture.scene, &picture.camera, Kind::Peer),
+        table(&picture.scene, &picture.camera, Kind::Embree),
+        Box::new(Late { kind: Kind::Naive, oath: Oath::Exact, frames: Vec::new(), late: 0 }),
+        Box::new(Scripted::of(&picture)),
+        // Told of one frame only.
+        Box::new(Scripted { kind: Kind::Limit, moved: picture.truth.clone(), ..Scripted::of(&picture) }),
+    ];
+    let (rows, _) = race(entrants, &input, &picture.truth, TWICE, 1, &silent).expect("nobody gives up");
+    let told: Vec<_> = rows.iter().map(|row| (row.kind, row.verdict, row.timing.is_some())).collect();
+    assert_eq!(
+        told,
+        [
+            (Kind::Peer, Verdict::Wrong, false),
+            (Kind::Embree, Verdict::Wrong, false),
+            (Kind::Naive, Verdict::Equal, true),
+            (Kind::Naive, Verdict::Equal, true),
+            (Kind::Limit, Verdict::Equal, true),
+        ]
+    );
+    for row in &rows[..2] {
+        // Of the pixels of its two turns hardly one is what it should be.
+        let remark = row.remark.as_deref().unwrap_or_default();
+        let off = remark.strip_prefix("In frames that were timed ").and_then(|rest| rest.split_once(" of "));
+        let (off, rest) = off.unwrap_or_else(|| panic!("{remark}"));
+        assert!(rest.starts_with("128 pixels") && off.parse::<u64>().is_ok_and(|off| off >= 120), "{remark}");
+        assert!(remark.ends_with("Not timed."), "{remark}");
+    }
+}
+
+/// All spheres of a frame move together, by one to four pixels along each axis of the picture, and in no two frames alike; for the clairvoyant
+/// they stay.
+#[test]
+fn no_two_frames_that_are_timed_are_alike() {
+    let picture = Picture::new();
+    let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
+    for kind in [Kind::Naive, Kind::Subject, Kind::Limit] {
+        let (tell, asked) = channel();
+        let at_each = Box::new(move |scene: &Scene| tell.send(scene.clone()).expect("somebody listens"));
+        let scripted: Box<dyn Contestant> = Box::new(Scripted { kind, at_each, ..Scripted::of(&picture) });
+        race(vec![scripted], &input, &picture.truth, TWICE, 1, &silent).expect("nobody gives up");
+        let frames: Vec<Scene> = asked.try_iter().collect();
+        let ways: Vec<[f64; 3]> = frames.iter().map(|frame| way(&picture, frame)).collect();
+        let [checked, timed, again] = [&ways[..1], &ways[1..ways.len() - 1], &ways[ways.len() - 1..]];
+        assert_eq!([checked, again].concat(), [[0.0; 3]; 2], "what is checked stands where it is");
+        assert!(timed.len() >= 4, "{} frames", timed.len());
+        for (k, way) in timed.iter().enumerate() {
+            if kind == Kind::Limit {
+                assert_eq!(*way, [0.0; 3]);
+                continue;
+            }
+            assert!(way.iter().all(|steps| (0.99..4.01).contains(&steps.abs())), "{way:?} pixels");
+            let apart = |other: &[f64; 3]| way.iter().zip(other).any(|(x, y)| (x - y).abs() > 1e-3);
+            assert!(timed[..k].iter().all(apart), "frame {k} was there before");
+        }
+        // To both sides of each axis, but once in 2^(frames - 1) draws; the seed is set.
+        for axis in 0..3 {
+            let sides = [1.0, -1.0].map(|side| timed.iter().any(|way| way[axis] * side > 0.0));
+            assert!(kind == Kind::Limit || sides == [true; 2], "axis {axis}: {timed:?}");
+        }
+    }
+}
+
+/// How far all spheres of a frame have moved: pixels to the side and up at the median of t, and as much in depth.
+fn way(picture: &Picture, frame: &Scene) -> [f64; 3] {
+    let pairs = frame.spheres().iter().zip(picture.scene.spheres());
+    let moves: Vec<[f64; 3]> = pairs
+        .map(|(now, then)| {
+            assert_eq!((now.radius, now.color), (then.radius, then.color));
+            std::array::from_fn(|i| f64::from(now.center[i]) - f64::from(then.center[i]))
+        })
+        .collect();
+    let dot = |x: [f64; 3], y: [f64; 3]| x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+    let camera = &picture.camera;
+    let [corner, du, dv] = [camera.corner(), camera.du(), camera.dv()].map(|v| v.map(f64::from));
+    let middle: [f64; 3] = std::array::from_fn(|i| corner[i] + 35.0 * du[i] + 18.5 * dv[i]);
+    let mut t: Vec<f32> = picture.truth.t.iter().copied().filter(|t| t.is_finite()).collect();
+    t.sort_by(f32::total_cmp);
+    let t = f64::from(t[t.len() / 2]);
+    // The three are at right angles.
+    let pixel = dot(du, du).sqrt() * t;
+    let steps = |way: [f64; 3]| [du, dv, middle].map(|axis| dot(way, axis) / dot(axis, axis).sqrt() / pixel);
+    for way in &moves {
+        let apart = steps(std::array::from_fn(|i| way[i] - moves[0][i]));
+        assert!(apart.iter().all(|steps| steps.abs() < 1e-2), "{way:?} and {:?}: not together", moves[0]);
+    }
+    steps(moves[0])
 }
 
 #[test]
@@ -716,6 +861,17 @@ fn the_word_of_a_run_is_that_of_its_worst_picture() {
         assert_eq!(!bench.broken_promises().is_empty(), broken, "{scenes:?}, then {later:?}");
     }
     assert_eq!(made_up(vec![subject(Equal)], vec![scene(Vec::new())]).verdict(), NotJudged, "nobody there");
+    // Of other people's tracers it does not depend.
+    for (kind, expected) in [
+        (Kind::Limit, Wrong),
+        (Kind::Picked, Wrong),
+        (Kind::Naive, Wrong),
+        (Kind::Embree, Equal),
+        (Kind::Peer, Equal),
+    ] {
+        let beside = vec![row(Kind::Subject, Equal, 1.0), row(kind, Wrong, 1.0)];
+        assert_eq!(made_up(vec![scene(beside)], Vec::new()).verdict(), expected, "{kind:?}");
+    }
     let mut lacking = made_up(vec![subject(Equal)], Vec::new());
     for (needed, expected) in [(false, Equal), (true, NotJudged)] {
         lacking.absent = vec![Absent { judge: "embree".into(), why: "lost".into(), needed }];

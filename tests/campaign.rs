@@ -190,7 +190,20 @@ fn what_is_missing_or_double_or_of_something_else_is_refused() {
         let error = merge(&plan, &[places(&shards), vec![moved.clone()]].concat()).expect_err(to);
         assert!(matches!(error, MergeError::Different { .. }), "{error}");
     }
-    assert!(matches!(merge(&plan, &places(&aside)), Err(MergeError::None)));
+    // A shard that cannot be one of so many.
+    let text = String::from_utf8(text).expect("text");
+    assert!(text.contains("\"shard\":2,\"of\":3"), "{text:.300}");
+    for to in [
+        "\"shard\":2,\"of\":0",
+        "\"shard\":0,\"of\":3",
+        "\"shard\":2,\"of\":18446744073709551615",
+        "\"shard\":2,\"of\":1000001",
+    ] {
+        std::fs::write(&moved, text.replacen("\"shard\":2,\"of\":3", to, 1)).expect("written");
+        let error = merge(&plan, std::slice::from_ref(&moved)).expect_err(to);
+        assert!(error.to_string().contains("shards count from 1 to N"), "{to}: {error}");
+    }
+    assert!(matches!(merge(&plan, &places(&folder())), Err(MergeError::None)));
 }
 
 /// A file that was cut in any byte is taken up and comes out the same.
@@ -496,6 +509,11 @@ fn plans_that_make_no_sense_are_refused() {
             again(two(film("0..4", "40x24", "\"fast\""), film(frames, "40x24", "\"safe\", \"fast\""))),
             "{frames}"
         );
+    }
+    // However its scene and its size are written.
+    for (scene, size) in [("2juy", "040x24"), ("2JUY", "40x24"), ("2Juy", "+40x0024")] {
+        let other = film("3..7", size, "\"fast\"").replace("2juy", scene);
+        assert!(again(two(film("0..4", "40x24", "\"fast\""), other)), "{scene} {size}");
     }
     for (frames, size, subject) in
         [("4..7", "40x24", "fast"), ("0..4", "40x25", "fast"), ("0..4", "40x24", "safe")]

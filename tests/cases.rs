@@ -4,8 +4,12 @@
 
 use contract::{Animation, Camera, DEFAULT_LIGHT, Scene, Size, Sphere};
 use image::GenericImageView;
+use optimized::crew::Crew;
+use optimized::grid::Memory;
+use optimized::host::Scalar;
 use optimized::plan::{Arithmetic, OnEvent, Packet};
-use optimized::{Form, Level, Plan};
+use optimized::seen::Seen;
+use optimized::{Events, Form, Level, Plan};
 use std::path::{Path, PathBuf};
 use verify::case::account::account;
 use verify::case::folder::keep;
@@ -16,6 +20,7 @@ use verify::foreign::PROMISES;
 use verify::properties::recipe::plan;
 use verify::subject::NAIVE_ALL;
 use verify::verdict::Verdict;
+use verify::view::tally::tally;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("cases")
@@ -304,6 +309,55 @@ fn an_account_tells_what_the_tracer_did() {
         assert!(told.contains(&format!("  sphere {id} at ")) && told.contains("alone"), "{told}");
     }
     assert!(apart > 0, "truth and tracer never differ, and either may stand for the other");
+}
+
+/// The grid's cells and ends are those of the grid, and the packet's counts those of the packet, each in its place.
+#[test]
+fn an_account_tells_the_grid_and_what_the_packet_cost() {
+    // Two that each ray of the middle column hits at once, which integers decide, and two that are apart by so little that f64 can.
+    let nearly = 1.0 + f32::EPSILON;
+    let [up, down] = [2.5, -2.5].map(|y| move |x, radius| ball([x, y, 0.0], radius));
+    let spheres = vec![up(0.5, 1.0), up(-0.5, 1.0), down(0.5, 1.0), down(-0.5, nearly)];
+    let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+    let (du, dv) = ([0.0625, 0.0, 0.0], [0.0, -0.0625, 0.0]);
+    let corner = [-13.5 * 0.0625, 26.5 * 0.0625, -1.0];
+    let camera = Camera::new([0.0, 0.0, 5.0], corner, du, dv, Size::new(27, 53).expect("small"));
+    let camera = camera.expect("a camera");
+    let plan = Plan { arithmetic: Arithmetic::Certified, packet: Packet::Block, ..Plan::safe() };
+    let asked = Asked::Grid { plan, level: Level::SCALAR, workers: 1 };
+    let case = Case { frames: scene.clone().into(), camera, asked, ..failing() };
+
+    let (mut memory, mut events) = (Memory::default(), Events::default());
+    let seen = Seen::new(Scalar, plan, &scene, &camera, &mut memory, &mut events, &Crew::alone());
+    let grid = seen.expect("small").grid.expect("there are spheres");
+    let cells = grid.axes.each_ref().map(|axis| axis.n);
+    let [from, to] = [0, 1].map(|end| {
+        grid.axes.each_ref().map(|axis| axis.planes[if end == 0 { 0 } else { axis.planes.len() - 1 }])
+    });
+    assert!(cells[0] != cells[1] && from[0] != from[1] && from != to, "nothing could be mistaken");
+    let line =
+        format!("grid       {cells:?} cells from {from:?} to {to:?}, looked around in by {:?}", grid.widen);
+    // Packets of which one number cannot stand for the next: by f64 and integers, by integers and roundings, by candidates and culled.
+    let (mut told, mut apart) = (0, [0; 3]);
+    for unit in tally(plan, 1, &scene, &camera).expect("small").units {
+        if !(unit.rect.x[0]..unit.rect.x[1]).contains(&13) || unit.counts.split_blocks > 0 {
+            continue;
+        }
+        let text = account(&case, 0, [13, unit.rect.y[0]]).expect("small");
+        assert!(text.lines().any(|found| found == line), "no {line:?} in\n{text}");
+        let c = unit.counts;
+        let due = format!(
+            "packet     {} cells visited, {} candidates, {} culled; of its {} lanes f32 left {} to f64, that left {} to integers, which rounded the t of {} more",
+            c.cells, c.candidates, c.culled, c.lanes, c.asked_f64, c.asked_integers, c.rounded_by_integers,
+        );
+        assert!(text.lines().any(|found| found == due), "no {due:?} in\n{text}");
+        told += 1;
+        apart[0] += u32::from(c.asked_f64 != c.asked_integers);
+        apart[1] += u32::from(c.asked_integers != c.rounded_by_integers);
+        apart[2] += u32::from(c.cells != c.candidates && c.candidates != c.culled);
+    }
+    eprintln!("{told} packets, {apart:?} of them with other numbers beside each other");
+    assert!(apart.iter().all(|n| *n > 0), "nothing could be mistaken: {apart:?}");
 }
 
 /// Where a block is split, what is told is of the pixel's own ray: with culling, a plane's distance is that of its slopes.

@@ -19,8 +19,10 @@ use verify::report::Evidence;
 use verify::scenes::catalogue::{Source, SourceError};
 use verify::scenes::frame::Framing;
 use verify::seed::{count, generator, seed};
+use verify::spu::cost::SPUS;
+use verify::spu::predict::Policy;
 use verify::spu::store::CAPACITY;
-use verify::spu::survey::Input;
+use verify::spu::survey::{Input, Survey};
 
 /// Scenes that are looked at again every day: they need no data, and seconds.
 const EVERYDAY: [&str; 2] = ["sphereflake:3", "uniform:500:1"];
@@ -115,6 +117,73 @@ fn verdicts_turn_with_the_figures() {
         of_scenes += usize::from(!one.answers.is_empty());
     }
     assert!(turned >= 20 && turned + 6 >= of_scenes, "{turned} of {of_scenes} verdicts depend on figures");
+}
+
+/// The number in a claim is where a scene's answer turns: a little below it and a little above, nothing else being changed.
+#[test]
+fn answers_turn_at_the_number_in_the_claim() {
+    use Answer::{No, Yes};
+    type Set = fn(&mut Survey, f64);
+    const HINTED: usize = Policy::Hinted as usize;
+    const UNHINTED: usize = Policy::Unhinted as usize;
+    // All of a frame's work is a stage's, as a share of what six SPUs have in a frame.
+    fn work(survey: &mut Survey, wanted: &str, percent: f64) {
+        let rate = &mut survey.rates[HINTED];
+        rate.frame_cycles = [rate.frame_cycles[0]; 2];
+        let all = rate.frame_cycles.map(|cycles| SPUS as f64 * cycles * percent / 100.0);
+        for stage in &mut rate.stages {
+            stage.per_frame = if stage.stage == wanted { all } else { [0.0; 2] };
+        }
+    }
+    fn nested(survey: &mut Survey, policy: usize, percent: f64) {
+        for kind in survey.loops.iter_mut().filter(|kind| kind.walk == "nested") {
+            kind.policies[policy].per_branch = Some(percent / 100.0);
+        }
+    }
+    let turns: [(&str, &str, f64, Set, [Answer; 2]); 11] = [
+        ("six SPUs, hinted", "30 frames", 30.0, |s, x| s.rates[HINTED].frames_per_second = [x; 2], [No, Yes]),
+        ("six SPUs, hinted", "60 frames", 60.0, |s, x| s.rates[HINTED].frames_per_second = [x; 2], [No, Yes]),
+        ("without a hint", "60 frames", 60.0, |s, x| s.rates[UNHINTED].frames_per_second = [x; 2], [No, Yes]),
+        ("Voxelizing anew", "below 5 %", 5.0, |s, x| work(s, "voxelize", x), [Yes, No]),
+        ("Stripes of four", "95 % of a frame or more", 95.0, |s, x| work(s, "voxelize", x), [No, Yes]),
+        ("transfers are", "half of a frame or more", 50.0, |s, x| work(s, "DMA", x), [No, Yes]),
+        (
+            "False positives",
+            "below 5 %",
+            5.0,
+            |s, x| (s.lists.ids, s.lists.false_positives) = (1_000_000, (x * 1e4) as u64),
+            [Yes, No],
+        ),
+        ("Culling cuts", "4 to 8 times", 4.0, |s, x| s.culling.factor = Some(x), [No, Yes]),
+        ("Culling cuts", "4 to 8 times", 8.0, |s, x| s.culling.factor = Some(x), [Yes, No]),
+        ("Nested loops", "over 50 percent, without hints", 50.0, |s, x| nested(s, UNHINTED, x), [No, Yes]),
+        ("Nested loops", "over 50 percent with a hint", 50.0, |s, x| nested(s, HINTED, x), [No, Yes]),
+    ];
+    let (scene, camera) = view("uniform:100:1", [64, 36]).expect("no data is needed");
+    let found = looked("uniform:100:1", &scene, &camera, 1);
+    let set: Vec<Looked> = turns
+        .iter()
+        .flat_map(|(_, _, at, set, _)| [at * 0.999, at * 1.001].map(|x| (set, x)))
+        .map(|(set, x)| {
+            let mut other = found.clone();
+            set(&mut other.survey, x);
+            other
+        })
+        .collect();
+    let claims = claims(&set, &[], 1);
+    for (k, (of, number, at, _, expected)) in turns.iter().enumerate() {
+        let has = |one: &&PaperClaim| [of, number].iter().all(|part| one.statement.contains(*part));
+        let such: Vec<&PaperClaim> = claims.iter().filter(has).collect();
+        let [claim] = such[..] else { panic!("{of}, {number}: {} claims", such.len()) };
+        let answers = [0, 1].map(|side| claim.answers[2 * k + side].answer);
+        assert_eq!(
+            answers,
+            *expected,
+            "{}, about {at}: {:?}",
+            claim.statement,
+            &claim.answers[2 * k..2 * k + 2]
+        );
+    }
 }
 
 /// What every claim owes a reader.

@@ -908,8 +908,21 @@ fn liar(desk: &Desk, says: &str) -> PathBuf {
 fn a_solver_that_lies_or_does_not_know_proves_nothing() {
     let desk = Desk::new();
     for (says, code, word) in [("unknown", 3, "not shown"), ("unsat", 1, "WRONG")] {
+        let liar = liar(&desk, says);
+        // Nor are the paper's claims any better for it.
         let mut command = desk.command(CGT);
-        command.env("PATH", "").env("CGT_SOLVERS", liar(&desk, says));
+        command.env("PATH", "").env("CGT_SOLVERS", &liar);
+        let said = desk.finish(command.args(["claims", "uniform:20:1", "--size", "16x8"]));
+        let line = format!("{}: cell.corners.below: ", if code == 3 { "not judged" } else { "WRONG" });
+        assert!(
+            said.code == code && said.out.contains(&line),
+            "{says}: {} {}{}",
+            said.code,
+            said.out,
+            said.err
+        );
+        let mut command = desk.command(CGT);
+        command.env("PATH", "").env("CGT_SOLVERS", liar);
         let met = desk.finish(command.args(["prove", "walk"]));
         assert_eq!(met.code, code, "{says}: {}{}", met.out, met.err);
         assert!(met.out.contains(word), "{says}: {}", met.out);

@@ -1,7 +1,7 @@
 //! Does what is told of a frame say what was rendered: the first wrong pixel, counts, speed, and whose picture a twin is?
 
 use contract::{Camera, DEFAULT_LIGHT, Image, MISS, Scene, Size, Sphere};
-use optimized::Level;
+use optimized::{Event, Level};
 use reference::{Arithmetic, Ray, Tracer};
 use std::time::Duration;
 use verify::report::{Environment, Report, SCHEMA_VERSION, ScenePictures, SceneReport, html};
@@ -166,6 +166,85 @@ fn what_was_asked_and_how_fast_is_told() {
     let report = told(&scene, &camera, "", &[&timed]);
     let subject = &report.subjects[0];
     assert_eq!((subject.seconds, subject.rays_per_second), (Some(2.0), Some(24.0 * 32.0)));
+}
+
+/// Numbers of a sentence, in their order.
+fn numbers(sentence: &str) -> Vec<f64> {
+    let words = sentence.split(|c: char| !c.is_ascii_digit() && c != '.').map(|word| word.trim_matches('.'));
+    words.filter(|word| !word.is_empty()).map(|word| word.parse().expect("a number")).collect()
+}
+
+/// What the grid tracer says of its own picture are the counts of the very same frame, each in its place.
+#[test]
+fn the_notes_of_a_picture_are_its_counts() {
+    let ball = |x: f32, y: f32, radius| Sphere { center: [x, y, 0.0], radius, color: [90; 3] };
+    // Two that each ray of the middle column hits at once, which integers decide, and two that are apart by so little that f64 can.
+    let nearly = 1.0 + f32::EPSILON;
+    let pairs = [ball(0.5, 2.5, 1.0), ball(-0.5, 2.5, 1.0), ball(0.5, -2.5, 1.0), ball(-0.5, -2.5, nearly)];
+    let scene = Scene::new(pairs.to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let size = Size::new(27, 53).expect("small");
+    let (du, dv) = ([0.0625, 0.0, 0.0], [0.0, -0.0625, 0.0]);
+    let corner = [-13.5 * 0.0625, 26.5 * 0.0625, -1.0];
+    let camera = Camera::new([0.0, 0.0, 5.0], corner, du, dv, size).expect("a camera");
+    let level = Level::best().expect("there is one");
+    let notes = |plan: NamedPlan, scene: &Scene| {
+        let grid = Grid::new(plan, level, false, None);
+        grid.render(scene, &camera, 1, &|| ()).expect("a picture").notes
+    };
+    for plan in [NamedPlan::Fast, NamedPlan::Safe] {
+        let counts =
+            optimized::Tracer::new(plan.plan(), level).render(&scene, &camera).expect("small").counts;
+        let told = notes(plan, &scene);
+        let due = [counts.cells, counts.candidates, counts.culled, counts.split_blocks].map(|n| n as f64);
+        assert_eq!(numbers(&told[0]), due, "{}", told[0]);
+        assert!(told[0].contains("cells visited") && due[1] > due[2], "{}", told[0]);
+        if plan != NamedPlan::Fast {
+            assert_eq!(told.len(), 1, "who asks nobody tells of no stages: {told:?}");
+            continue;
+        }
+        assert!(told[1].starts_with("Of ") && told[1].contains(" in a million) to f64"), "{}", told[1]);
+        let lanes = counts.lanes as f64;
+        let stages = [counts.asked_f64, counts.asked_integers, counts.rounded_by_integers];
+        let due = stages.map(|n| [n as f64, n as f64 / lanes * 1e6]).concat();
+        let said = numbers(&told[1].replace("f32", "").replace("f64", ""));
+        assert_eq!((said[0], said.len()), (lanes, 7), "{}", told[1]);
+        assert!(said[1..].iter().zip(&due).all(|(x, y)| (x - y).abs() < 0.051), "{due:?}: {}", told[1]);
+        eprintln!("{}", told[1]);
+        let [f64s, integers, rounded] = stages;
+        assert!(f64s > integers && integers > 0 && rounded != integers, "nothing could be mistaken");
+    }
+    let empty = Scene::new(Vec::new(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    assert!(notes(NamedPlan::Fast, &empty).iter().all(|note| !note.contains("NaN")));
+}
+
+/// Of each kind of event how many there were, and the first in full; where not all were kept, at least so many.
+#[test]
+fn the_notes_of_events_count_each_kind() {
+    let (_, camera) = made();
+    let speck = Sphere { center: [0.01, 0.02, 0.03], radius: 1e-4, color: [90; 3] };
+    let large = Sphere { center: [0.5; 3], radius: 0.45, color: [90; 3] };
+    let level = Level::best().expect("there is one");
+    type Is = fn(&Event) -> bool;
+    let kinds: [(Is, &str); 2] = [
+        (|event| matches!(event, Event::CellFull { .. }), "pushes onto full queues"),
+        (|event| matches!(event, Event::SpansCells { .. }), "spheres with more than two cells on an axis"),
+    ];
+    for (specks, all_are_kept) in [(40, true), (optimized::Events::KEPT + 100, false)] {
+        let spheres = [vec![large, Sphere { radius: 0.4, ..large }], vec![speck; specks]].concat();
+        let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+        let events = optimized::Tracer::new(NamedPlan::Paper.plan(), level).render(&scene, &camera);
+        let events = events.expect("small").events;
+        let paper = Grid::new(NamedPlan::Paper, level, false, None);
+        let notes = paper.render(&scene, &camera, 1, &|| ()).expect("a picture").notes;
+        assert_eq!(events.count() == events.first().len() as u64, all_are_kept, "{} events", events.count());
+        let more = if all_are_kept { "" } else { "at least " };
+        for (is, what) in kinds {
+            let own: Vec<&Event> = events.first().iter().filter(|event| is(event)).collect();
+            let note = format!("{more}{} {what}, the first: {}.", own.len(), own.first().expect("at stake"));
+            assert!(notes.contains(&note), "no {note:?} in {notes:?}");
+        }
+        assert_eq!(notes.len(), 3, "and the counts: {notes:?}");
+    }
 }
 
 /// Where a promise to be the naive picture is broken, that is told, marked and shown, though the pixel is the truth's own.

@@ -87,6 +87,7 @@ fn every_input_passes_and_most_are_judged() {
 #[test]
 fn changed_inputs_pass_too() {
     let (seed, rounds) = (seed(), count("CGT_FUZZ_ROUNDS", 150));
+    assert!(rounds > 0, "CGT_FUZZ_ROUNDS: no round is no verdict");
     eprintln!("CGT_SEED={seed}, {rounds} rounds");
     for ((t, target), (.., least)) in (0..).zip(&TARGETS).zip(LEAST) {
         let corpus = corpus(target);
@@ -159,4 +160,9 @@ fn all_that_names_targets_agrees() {
         assert!(faults.lines().any(|line| line == format!("fuzz = \"{name}\"")), "no fault for {name}");
     }
     assert_eq!(package.metadata["cargo-fuzz"], serde_json::Value::Bool(true), "what cargo-fuzz asks for");
+    // Without its checks half of what is wrong with a number would go by.
+    let manifest = std::fs::read_to_string(folder().join("Cargo.toml")).expect("it is there");
+    for check in ["debug-assertions = true", "overflow-checks = true"] {
+        assert!(manifest.lines().any(|line| line == check), "fuzz/Cargo.toml: {check}");
+    }
 }

@@ -15,6 +15,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 use verify::case::{Asked, Case};
+use verify::chart::{self, Distance, measure};
 use verify::foreign::{Foreign, ForeignError, PROMISES, method, serve, wire};
 use verify::judge::judge;
 use verify::properties::relations::Relation;
@@ -413,6 +414,37 @@ fn who_remembers_the_frame_before_is_at_odds_with_itself() {
         let held = Relation::Second.hold(&case, &mut generator(1, 0));
         assert_eq!(held.is_ok(), sound, "{name}: {held:?}");
         assert!(held.is_ok_and(|pixels| pixels == 32) || !sound, "{name}: another number of pixels");
+    }
+}
+
+/// Whoever keeps answers for rays it has seen, or traces rays before the clock runs with the spheres that it had before, has no time in a
+/// chart.
+#[test]
+fn who_has_its_answers_beforehand_has_no_time() {
+    if !has("python3") {
+        return;
+    }
+    let desk = tempfile::tempdir().expect("a temporary folder");
+    let (scene, camera) = scene("uniform:20:1", [24, 16]);
+    let hits = "hits = [nearest(spheres, *rays[i : i + 6]) for i in range(0, len(rays), 6)]";
+    let table = "table = globals().get(\"table\", {})\n    if rays.tobytes() not in table:\n        \
+                 table[rays.tobytes()] = [nearest(spheres, *rays[i : i + 6]) for i in range(0, len(rays), 6)]\n    \
+                 hits = table[rays.tobytes()]";
+    let beforehand = "before, now = globals().get(\"now\"), read(4 * n)\n    spheres = before or now";
+    for (name, text, sound) in [
+        ("sound.py", client(), true),
+        ("table.py", broken(hits, table), false),
+        ("beforehand.py", broken("spheres = read(4 * n)", beforehand), false),
+    ] {
+        let methods = [method(&foreign(&python(desk.path(), name, &text)), 1)];
+        let asked =
+            chart::Asked { name, frame: 0, scene: &scene, methods: &methods, rounds: 3, every: 1, seed: 1 };
+        let at = Distance { times: 1.0, radii: 1.0, camera };
+        let view = measure(&asked, &at, &|_, _| Box::new(|| ())).expect("small");
+        let remark = view.points[0].remark.as_deref().unwrap_or_default();
+        assert_eq!(view.points[0].ns_per_ray.is_some(), sound, "{name}: {remark}");
+        assert_eq!(remark.is_empty(), sound, "{name}: {remark}");
+        assert_eq!(remark.contains("drawn at random"), name == "table.py", "{name}: {remark}");
     }
 }
 

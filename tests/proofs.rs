@@ -48,6 +48,15 @@ fn lemmas_are_proved() {
     let tried: usize = proofs.faults.iter().map(|faults| faults.tried).sum();
     assert_eq!(proofs.faults.len(), kernels(&lemmas()).len(), "kernels");
     assert!(solvers.is_empty() || tried >= 6 * proofs.faults.len() - 5, "only {tried} faults were tried");
+    // What no solver decides has not been noticed, whether an operation was done wrong or an assumption left out.
+    let decided: usize = proofs.faults.iter().map(|faults| faults.noticed + faults.harmless).sum();
+    let open: Vec<&String> = proofs.faults.iter().flat_map(|faults| &faults.open).collect();
+    let left_out: usize = proofs.lemmas.iter().map(|lemma| lemma.left_out).sum();
+    let needed: usize = proofs.lemmas.iter().map(|lemma| lemma.needed).sum();
+    eprintln!("{decided} of {tried} faults decided, {needed} of {left_out} assumptions left out were needed");
+    assert!(10 * decided >= 9 * tried, "{decided} of {tried}: {open:#?}");
+    assert!(10 * needed >= 9 * left_out, "{needed} of {left_out} assumptions");
+    assert!(solvers.len() < 2 || left_out >= 50, "only {left_out} assumptions were left out");
 }
 
 /// Each lemma belongs to a claim, and no claim names one that is not there.

@@ -19,6 +19,7 @@ use verify::seed::{count, seed};
 fn hold(everyday: u64, least: &[(&str, u64)], property: Property) {
     let name = property.word();
     let (seed, cases) = (seed(), count("CGT_PROPERTY_CASES", everyday));
+    assert!(cases > 0, "CGT_PROPERTY_CASES: no case is no verdict");
     let stakes = property.hold(seed, cases).unwrap_or_else(|account| panic!("{account}\nCGT_SEED={seed}"));
     eprintln!("{name}: CGT_SEED={seed}, {cases} cases: {stakes}");
     // Of longer runs as much more is asked.

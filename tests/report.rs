@@ -291,6 +291,161 @@ fn frames_by_other_tracers_are_another_film() -> Outcome {
     Ok(())
 }
 
+/// Of a film, too, the page says why each frame has its verdict, what was promised, where it is wrong first, what was warned of, and what
+/// was said from outside, and in which frame.
+#[test]
+fn a_film_says_all_it_was_told() -> Outcome {
+    let heard = |frame: usize| Hearing {
+        outside: u64::from(frame == 3),
+        first: (frame == 3).then(|| "<there>".to_owned()),
+        ..hearings()[0].clone()
+    };
+    let frame = |number: usize, verdict: Verdict| -> Result<SceneReport, Box<dyn Error>> {
+        let one = SubjectReport {
+            because: format!("<why> in {number}."),
+            first_wrong: (verdict != Verdict::Equal).then(|| format!("pixel <of {number}>")),
+            ..subject("one", verdict)
+        };
+        let mut warnings = vec!["always <so>".to_owned()];
+        warnings.extend((number != 3).then(|| "at times".to_owned()));
+        let outside = if number == 5 { Vec::new() } else { vec![heard(number)] };
+        Ok(SceneReport { frame: number, frames: 9, warnings, outside, ..scene("reel", vec![one])? })
+    };
+    let verdicts =
+        [(2, Verdict::WithinBound), (3, Verdict::Equal), (4, Verdict::NotJudged), (5, Verdict::NotJudged)];
+    let scenes = verdicts.iter().map(|(n, verdict)| frame(*n, *verdict)).collect::<Result<Vec<_>, _>>()?;
+    let report = Report { verdict: overall(&scenes, &[], &[]), scenes, ..report()? };
+    let page = html(&report, &pictures(&report)?, &[])?;
+    let told = |text: &str| page.contains(&escaped(text));
+    for (number, _) in verdicts {
+        assert!(told(&format!("<why> in {number}.")), "frame {number} has no reason");
+    }
+    assert!(told("promise of one") && told("one & its description"));
+    assert!(
+        page.contains(&format!("<i>Verdict of frame 4:</i> {}", escaped("<why> in 4."))),
+        "the worst one's"
+    );
+    assert!(told("pixel <of 4>") && page.contains("The first wrong pixel of frame 4:"));
+    assert!(!told("pixel <of 2>"), "an account of a frame that is less bad");
+    assert!(page.contains(&format!("<li>{}</li>", escaped("always <so>"))), "of every frame");
+    assert!(page.contains("<li>at times (of frame 2, 4, 5)</li>"));
+    // Three of four frames were heard, and one answer in one of them cannot be explained.
+    let row = row(&page, &escaped("Tracer <of others> 1.2, plain, 4 wide"))?;
+    assert_below(&row, &[("verdict", "≠ wrong"), ("rays", "9\u{202f}216"), ("failures", "1")]);
+    let said = "Tracer <of others> 1.2 on reel, 4 frames: wrong. Asked in 1 ways (plain), 9\u{202f}216 rays:";
+    assert!(told(said) && told("1 answers cannot be explained, the first: in frame 3: <there>."));
+    let text = text(&report, false).split_whitespace().collect::<Vec<_>>().join(" ");
+    // There, too, the narrow space is one.
+    let said = said.replace('\u{202f}', " ");
+    assert!(text.contains(&said) && text.contains("the first: in frame 3: <there>."), "{text}");
+    assert!(text.contains("one on reel, frame 4: <why> in 4."), "{text}");
+    let every = page.split("Every frame</summary>").nth(1).and_then(|rest| rest.split("</table>").next());
+    let rows: Vec<&str> =
+        every.ok_or("all frames are told")?.split("<tr><th scope=\"row\">").skip(1).collect();
+    let seals = |row: &str| row.matches("class=\"seal ").count();
+    assert_eq!(rows.iter().map(|row| seals(row)).collect::<Vec<_>>(), [2, 2, 2, 1], "5 was not heard");
+    assert!(
+        rows[0].contains("seal within") && rows[1].contains("seal equal") && rows[1].contains("seal wrong")
+    );
+    // A witness that is silent on one frame has not judged that, whatever it said of others.
+    let mut scenes = report.scenes.clone();
+    scenes.truncate(2);
+    scenes[1].outside = vec![Hearing { not_stated: [3072, 0], ..hearings()[0].clone() }];
+    let silent = Report { scenes, ..report };
+    let page = html(&silent, &pictures(&silent)?, &[])?;
+    assert_below(&self::row(&page, &escaped("Tracer <of others>"))?, &[("verdict", "– not judged")]);
+    Ok(())
+}
+
+/// The sentence below the verdict says whose it is.
+#[test]
+fn the_lead_is_true_of_who_has_the_verdict() -> Outcome {
+    use Verdict::{Equal, NotJudged, Undecidable, WithinBound, Wrong};
+    let unstated = Hearing { not_stated: [1, 0], ..hearings()[0].clone() };
+    let near = &hearings()[..1];
+    for (verdict, outside, broken, lead) in [
+        (Equal, &[][..], false, "Every picture has the bits of the exact one."),
+        (Equal, near, false, "where an outside judge differs, its rounding cannot decide."),
+        (Equal, &[unstated], false, "outside what an outside judge states"),
+        (Equal, &hearings(), false, "An outside judge and the exact picture differ"),
+        (WithinBound, &hearings(), false, "An outside judge and the exact picture differ"),
+        (WithinBound, near, false, "where the subject's stated arithmetic cannot decide"),
+        (Undecidable, near, false, "Some pixels lie outside what a subject states"),
+        (Wrong, near, false, "At least one pixel is wrong"),
+        (Wrong, &hearings(), false, "At least one pixel is wrong"),
+        (Equal, near, true, "A promise is broken"),
+        (NotJudged, near, false, "Something here was not compared."),
+    ] {
+        let fault = SubjectReport { known_fault: true, ..subject("a fault", Wrong) };
+        let one = scene("a", vec![subject("one", verdict), fault])?;
+        let scenes = vec![SceneReport { outside: outside.to_vec(), ..one }];
+        let broken = vec!["somewhere".to_owned(); usize::from(broken)];
+        let report = Report { verdict: overall(&scenes, &broken, &[]), scenes, broken, ..report()? };
+        let page = html(&report, &[], &[])?;
+        let told = page.split("<p class=\"lead\">").nth(1).and_then(|rest| rest.split("</p>").next());
+        let told = told.ok_or("there is a sentence")?;
+        assert!(told.contains(&escaped(lead)), "{verdict:?}, {outside:?}, {:?}: {told}", report.broken);
+    }
+    Ok(())
+}
+
+/// A number of wrong pixels that is a power of ten stands on the tick that says so, one half-way between two in their middle, zero by
+/// itself; speed is told as a part of the fastest.
+#[test]
+fn marks_stand_where_their_axis_says() -> Outcome {
+    let compared = |wrong_ids, wrong_t, wrong_color, rays| {
+        let pixels = 1_000_000;
+        let comparison = Comparison { pixels, wrong_ids, wrong_t, wrong_color, ..Comparison::default() };
+        let comparison = Some(comparison);
+        SubjectReport { comparison, rays_per_second: rays, ..subject("one", Verdict::WithinBound) }
+    };
+    let subjects = vec![
+        compared(1, 1000, 1_000_000, Some(2e8)),
+        compared(0, 31_623, 100, Some(5e7)),
+        compared(10, 0, 10_000, None),
+    ];
+    let report = Report { scenes: vec![scene("bar", subjects)?], ..report()? };
+    let page = html(&report, &[], &[])?;
+    let numbers = |text: &str, begins: &str| -> Vec<f64> {
+        let values = text.split(begins).skip(1).filter_map(|rest| rest.split('%').next());
+        values.filter_map(|value| value.parse().ok()).collect()
+    };
+    let labels = page.split("<svg class=\"labels\">").nth(1).and_then(|rest| rest.split("</svg>").next());
+    let labels = labels.ok_or("the axis is labelled")?;
+    let named: Vec<&str> =
+        labels.split("y=\"12\">").skip(1).filter_map(|rest| rest.split('<').next()).collect();
+    let ticks = numbers(labels, "<text x=\"");
+    assert_eq!(named, ["0", "1", "10", "10²", "10³", "10⁴", "10⁵", "10⁶"]);
+    assert_eq!(ticks.len(), named.len());
+    let at = |label: &str| ticks[named.iter().position(|name| *name == label).expect("a tick")];
+    let step = (at("10⁶") - at("1")) / 6.0;
+    assert!(ticks[1..].windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 0.02), "{ticks:?}");
+    assert!(at("0") >= 0.0 && at("0") + step / 2.0 < at("1") && at("10⁶") <= 100.0, "{ticks:?}");
+
+    let strips: Vec<&str> = page.split("<svg class=\"strip\"").skip(1).collect();
+    assert_eq!(strips.len(), 3);
+    for (strip, [ids, t, color]) in strips.iter().zip([
+        [at("1"), at("10³"), at("10⁶")],
+        [at("0"), (at("10⁴") + at("10⁵")) / 2.0, at("10²")],
+        [at("10"), at("0"), at("10⁴")],
+    ]) {
+        let strip = strip.split("</svg>").next().unwrap_or_default();
+        let near = |found: Vec<f64>, due: &[f64], what: &str| {
+            let same = found.len() == due.len() && found.iter().zip(due).all(|(x, y)| (x - y).abs() < 0.02);
+            assert!(same, "{what} at {found:?}, not at {due:?}: {strip}");
+        };
+        near(numbers(strip, "class=\"ids\" cx=\""), &[ids], "ids");
+        near(numbers(strip, "class=\"t\" cx=\""), &[t], "t");
+        near(numbers(strip, "class=\"color\" x1=\""), &[color], "colours");
+        near(numbers(strip, "class=\"base\" x1=\""), &[at("1")], "the line's beginning");
+        let base = strip.split("class=\"base\"").nth(1).and_then(|rest| rest.split("/>").next());
+        near(numbers(base.unwrap_or_default(), "x2=\""), &[at("10⁶")], "the line's end");
+        near(numbers(strip, "<line x1=\""), &ticks, "ticks");
+    }
+    assert_eq!(numbers(&page, "<rect width=\""), [100.0, 25.0], "a bar for each that was timed");
+    Ok(())
+}
+
 /// What other chapters found broken makes the whole wrong and is told wherever the verdict is.
 #[test]
 fn what_other_chapters_found_broken_is_told() -> Outcome {

@@ -28,7 +28,8 @@ use verify::spu::predict::{LOOP_SITES, Policy, Predictor, SITES};
 use verify::spu::recorder::{Booked, STAGES, Tally, cycles, record};
 use verify::spu::sequence::{Operand, TABLE};
 use verify::spu::store::{Buffers, CAPACITY, LocalStoreFull, Map, code_bytes, queue_bytes};
-use verify::spu::survey::{Input, Rate, SurveyError, survey};
+use verify::spu::survey::{Gain, Input, Lists, Mailbox, Picture, Rate, SurveyError, survey};
+use verify::spu::text::{capacity, text};
 use verify::visible::listed;
 
 const M: Spu<Scalar> = Spu(Scalar);
@@ -788,6 +789,13 @@ fn a_survey_agrees_with_the_tracer() {
     assert_eq!(found.mailbox.fetched, with.counts.candidates);
     assert_eq!(found.lists.dropped + found.lists.spanning, with.events.count());
     assert!(found.lists.spanning > 0 && found.lists.false_negatives > 0, "it has spheres larger than cells");
+    // What it calls wrong is what one loop over all spheres shows otherwise.
+    let naive = reference::Tracer::new(reference::Arithmetic::F32Textbook).render(&scene, &camera);
+    let naive = naive.expect("a picture").image.ids;
+    let wrong = naive.iter().zip(&with.image.ids).filter(|(a, b)| a != b).count() as u64;
+    let hits = naive.iter().filter(|id| **id != MISS).count() as u64;
+    assert_eq!((found.picture.wrong, found.picture.hits), (wrong, hits));
+    assert!(wrong > 0, "it loses no sphere: nothing was at stake");
     // No hint that is given once and for all beats the better of both.
     for site in found.loops.iter().flat_map(|of| &of.sites) {
         assert!(
@@ -845,6 +853,78 @@ fn a_survey_agrees_with_the_tracer() {
     assert_eq!((safe.picture.wrong, safe.lists.false_negatives, safe.lists.dropped), (0, 0, 0));
     // Certified packets are none of the model's.
     assert!(matches!(survey(&input(Plan::fast(), true), &|| ()), Err(SurveyError::Plan { .. })));
+}
+
+/// Each number of a survey stands in its own place, whatever the numbers are.
+#[test]
+fn the_text_has_each_number_in_its_place() {
+    let (scene, camera) = view("uniform:50:1", [64, 36]);
+    let input = Input {
+        name: "fifty",
+        frame: 0,
+        scene: &scene,
+        camera: &camera,
+        plan: Plan::paper(),
+        every: 1,
+        unlimited: true,
+    };
+    let mut survey = survey(&input, &|| ()).expect("it fits");
+    survey.culling = Gain {
+        tests_without: 7001,
+        tests_with: 1003,
+        factor: Some(6.98),
+        cycles_without: [11e6, 12e6],
+        cycles_with: [3e6, 4e6],
+    };
+    survey.mailbox = Mailbox { fetched: 500, repeats: 30, share: [0.07, 0.08], saved: [0.01, 0.02] };
+    survey.lists = Lists {
+        spanning: 41,
+        ids: 2000,
+        false_positives: 100,
+        false_negatives: 42,
+        twice: 43,
+        dropped: 44,
+        overfull: 45,
+    };
+    survey.picture = Picture { hits: 800, wrong: 8, wrong_as_printed: 9 };
+    for (k, rate) in (1..).zip(&mut survey.rates) {
+        let k = f64::from(k);
+        rate.frame_cycles = [k * 1e6, k * 1e6 + 5e5];
+        (rate.frames_per_second, rate.frames_per_second_double) = ([100.0 + k; 2], [200.0 + k; 2]);
+    }
+    for of in &mut survey.loops {
+        for policy in &mut of.policies {
+            (policy.per_cell, policy.per_traversal) = (Some(0.25), Some(21.0));
+            (policy.per_branch, policy.all_per_traversal) = (Some(0.13), Some(31.0));
+        }
+    }
+    // One blank for all that stands between words; the groups of a number keep theirs.
+    let lines = |text: &str| {
+        let words = text.split([' ', '\n']).filter(|word| !word.is_empty());
+        words.collect::<Vec<_>>().join(" ")
+    };
+    let told = lines(&text(&survey));
+    for due in [
+        "Culling: 7\u{202f}001 tests of sixteen rays without, 1\u{202f}003 with, a factor of 6.98; 11.0 to 12.0 and 3.00 to 4.00 million cycles a frame.",
+        "Mailbox: 30 of 500 spheres fetched had been met by the packet before (6.00 %); they take 7.00 to 8.00 % of tracing, of which a mailbox saves 1.00 to 2.00 %.",
+        "Lists: 2\u{202f}000 ids, of which 100 in cells that the ball does not meet (5.00 %); 42 cells that it meets do not list it; 41 spheres span more than two cells; 44 ids fell out of full queues, of 45 cells that are known.",
+        "Picture: 8 of 800 pixels that hit are wrong (1.00 %); by the loop as printed 9 more differ.",
+        "frame 1.00 to 1.50 2.00 to 2.50 3.00 to 3.50 million cycles, six SPUs",
+        "101 102 103 frames a second",
+        "201 202 203 the same, two pixel buffers",
+        "0.250 a cell 21.0 a traversal 13.0 % of its branches; all branches 31.0 a traversal;",
+    ] {
+        assert!(told.contains(due), "`{due}` is not in {told}");
+    }
+    // A second buffer costs spheres.
+    let told = capacity(20_000, 1280);
+    let row = told.lines().find(|line| line.starts_with("16^3 ")).expect("a row");
+    let most = [Buffers::Single, Buffers::Double]
+        .map(|buffers| Map::new(20_000, queue_bytes(16), 0, 1280, 16, buffers).most_spheres().to_string());
+    assert_ne!(most[0], most[1]);
+    let cells: Vec<String> =
+        row.split(' ').filter(|word| !word.is_empty()).map(|word| word.replace('\u{202f}', "")).collect();
+    assert_eq!(cells[2..], most, "{row}");
 }
 
 /// Hints by hand: GCC needs eight instructions of a straight line, or a loop of at most 600 bytes with its hint still in force; of

@@ -133,6 +133,36 @@ fn what_is_told_by_cells_is_a_dash_without_cells() {
     }
 }
 
+/// Of what the processor counts, that is taken off which it counts of the same run without walks. The counters are a made-up `perf`'s.
+#[cfg(unix)]
+#[test]
+fn counters_are_those_of_the_walks_alone() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let perf = folder.path().join("perf");
+    let text = "#!/bin/sh\ncase \"$*\" in *:0) echo '100,,branches:u' >&2; echo '10,,branch-misses:u' >&2 ;;\n\
+                *) echo '1100,,branches:u' >&2; echo '60,,branch-misses:u' >&2 ;; esac\n";
+    std::fs::write(&perf, text).expect("written");
+    std::fs::set_permissions(&perf, std::fs::Permissions::from_mode(0o755)).expect("it may run");
+    let file = folder.path().join("spu.json");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_cgt"));
+    command.args(["spu", "uniform:20:1", "--size", "16x16", "--host", "--json"]).arg(&file);
+    // Nothing else is on the path, so nothing is simulated.
+    let output = command.env("PATH", folder.path()).output().expect("the program starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let host = &json(&file)["host"];
+    assert!(host["simulated"]["Err"].is_string(), "{}", host["simulated"]);
+    let counted = host["counters"]["Ok"].as_array().unwrap_or_else(|| panic!("{}", host["counters"]));
+    assert!(counted.len() >= 4, "{counted:?}");
+    for of in counted {
+        assert_eq!(of["branches"], serde_json::json!([1000, 50]), "{of}");
+    }
+    // The best level of those that Valgrind knows, though nothing is simulated.
+    if cfg!(target_arch = "x86_64") && std::arch::is_x86_feature_detected!("avx2") {
+        assert_eq!(host["level"], "avx2");
+    }
+}
+
 /// Nested loops and masks mispredict many times a walk, selection about once, as on the model.
 #[test]
 fn this_computer_tells_the_same_of_the_loops() {

@@ -546,3 +546,33 @@ fn who_refused_is_not_never_wrong() {
         assert_eq!(cells, [below, "–", below, below, above, "–", above, above], "{name}: {row}");
     }
 }
+
+/// The most that was seen wrong is the last figure of a line, and who compared nothing has none; a map marks what was refused.
+#[test]
+fn what_was_refused_has_no_figure_on_the_terminal() {
+    let refused = Count { refused: 3, ..Count::default() };
+    let partly = Count { refused: 3, ..RIGHT };
+    let curve = curve(vec![
+        ("right", true, vec![RIGHT; 5]),
+        ("sometimes-wrong", false, vec![RIGHT, Count { wrong: 500, ..RIGHT }, COUNT, RIGHT, refused]),
+        ("refuses-all", false, vec![refused; 5]),
+        ("never-asked", false, vec![Count::default(); 5]),
+    ]);
+    let counts = [[partly, Count { wrong: 125, ..partly }], [refused, Count::default()]];
+    let table = text(&told(1000, 1, vec![curve], vec![map([false; 2], counts)]));
+    let words = |name: &str| -> Vec<&str> {
+        let line = table.lines().find_map(|line| line.trim_start().strip_prefix(name));
+        line.unwrap_or_else(|| panic!("{name} has no line in {table}")).split_whitespace().collect()
+    };
+    assert!(words("right").ends_with(&["0"]), "{table}");
+    assert!(words("sometimes-wrong").ends_with(&["50", "%"]), "{table}");
+    assert_eq!(words("refuses-all"), ["refused", "–", "refused", "refused", "–"]);
+    assert_eq!(words("never-asked"), ["–"; 5]);
+    assert_eq!(words("first row"), ["0*", "12.5", "%*"]);
+    assert_eq!(words("second row"), ["refused", "–"]);
+    assert!(table.contains("\n  * of those that were answered; others were refused\n"), "{table}");
+    let whole = text(&told(1000, 1, Vec::new(), vec![map([false; 2], [[RIGHT, COUNT], [refused, RIGHT]])]));
+    assert!(whole.contains("others were refused"), "a part of {COUNT:?} is");
+    let whole = text(&told(1000, 1, Vec::new(), vec![map([false; 2], [[RIGHT; 2], [refused, RIGHT]])]));
+    assert!(!whole.contains("others were refused"), "none was refused in part");
+}

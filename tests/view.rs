@@ -2,11 +2,12 @@
 //! canvases against pictures and counts that are had without the view.
 
 use contract::{Animation, Camera, DEFAULT_LIGHT, Image, Scene, Size, Sphere};
+use optimized::frame::Times;
 use optimized::plan::{Arithmetic, Packet};
-use optimized::{Form, Level, Plan, Tracer};
+use optimized::{Form, Level, Plan, Session, Tracer};
 use rand::{Rng, RngExt};
 use std::collections::BTreeSet;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use verify::judge::compare::{Fault, compare, fault_at};
 use verify::picture::{PALETTE, fault_color};
 use verify::scenes::catalogue::Source;
@@ -14,13 +15,15 @@ use verify::scenes::frame::Framing;
 use verify::seed::{generator, seed};
 use verify::subject::NamedPlan;
 use verify::view::canvas::{Canvas, channels};
+use verify::view::clock::Split;
 use verify::view::command::{Command, KEYS, Overlay, Press, asked, help};
 use verify::view::orbit::{Move, Orbit, REACH};
 use verify::view::overlay::wrong::Marked;
-use verify::view::overlay::{blocks, fallback, heat, wrong};
+use verify::view::overlay::{blocks, fallback, heat, times, wrong};
 use verify::view::player::Player;
 use verify::view::state::State;
 use verify::view::tally::{Fallback, Tally, tally};
+use verify::view::text::{Corner, LINE, Line, panel};
 use verify::view::viewer::Viewer;
 
 fn rng(stream: u64) -> impl Rng {
@@ -289,6 +292,61 @@ fn no_move_takes_the_camera_away() {
     assert!(made > 1000 && refused > 50, "too few of either");
 }
 
+/// What is before the target follows the mouse, a drag from edge to edge is half a turn, and the right button moves all by its pixels.
+#[test]
+fn a_drag_takes_the_scene_with_it() {
+    let begin = || viewer("2juy", framed(320, 180), NamedPlan::Fast);
+    for by in [[40.0, 0.0], [-64.0, 0.0], [0.0, 30.0], [0.0, -20.0]] {
+        let mut viewer = begin();
+        let (eye, target) = (viewer.orbit.eye(), viewer.orbit.target());
+        let front = std::array::from_fn(|i| target[i] + 0.2 * (eye[i] - target[i]));
+        let before = pixel(&viewer.orbit.camera().expect("a camera"), front);
+        viewer.drag(by, true, false);
+        let after = pixel(&viewer.orbit.camera().expect("a camera"), front);
+        let axis = usize::from(by[0] == 0.0);
+        assert!((after[axis] - before[axis]) * by[axis] > 0.0, "{by:?}: {before:?} to {after:?}");
+        // Round the axis that is up, or towards it.
+        let angle = |eye: [f64; 3]| {
+            let [x, y, z] = std::array::from_fn(|i| eye[i] - target[i]);
+            [x.atan2(z), y.atan2(x.hypot(z))][axis].to_degrees()
+        };
+        let turned = (angle(viewer.orbit.eye()) - angle(eye) + 540.0).rem_euclid(360.0) - 180.0;
+        assert!((turned.abs() - 180.0 * by[axis].abs() / 320.0).abs() < 1e-6, "{by:?}: {turned} degrees");
+
+        let mut viewer = begin();
+        let target = viewer.orbit.target();
+        viewer.drag(by, false, false);
+        let [x, y] = pixel(&viewer.orbit.camera().expect("a camera"), target);
+        assert!((x - 160.0 - by[0]).abs() < 0.02 && (y - 90.0 - by[1]).abs() < 0.02, "{by:?}: {x}, {y}");
+    }
+    // The line of the wipe is moved alone, by who takes hold of it.
+    let mut viewer = begin();
+    assert!(!viewer.on_line(160.0), "there is no line");
+    viewer.command(Command::Wipe);
+    assert_eq!(
+        [147.0, 148.0, 160.0, 172.0, 173.0].map(|x| viewer.on_line(x)),
+        [false, true, true, true, false]
+    );
+    let camera = viewer.orbit.camera();
+    viewer.drag([32.0, 9.0], true, true);
+    assert!((viewer.state.line() - 0.6).abs() < 1e-12 && viewer.orbit.camera() == camera);
+    viewer.drag([32.0, 9.0], false, true);
+    assert!((viewer.state.line() - 0.6).abs() < 1e-12 && viewer.orbit.camera() != camera, "the right button");
+}
+
+#[test]
+fn the_wheel_brings_the_scene_nearer() {
+    // At most eight steps at once.
+    for (steps, made) in [(1.0, 1.0), (-2.0, -2.0), (0.5, 0.5), (100.0, 8.0), (-100.0, -8.0)] {
+        let mut viewer = viewer("2juy", framed(32, 18), NamedPlan::Fast);
+        let distance = |viewer: &Viewer| apart(viewer.orbit.eye(), viewer.orbit.target());
+        let before = distance(&viewer);
+        viewer.wheel(steps);
+        let times = distance(&viewer) / before;
+        assert!((times / 1.1f64.powf(-made) - 1.0).abs() < 1e-12, "{steps} steps: {times} times as far");
+    }
+}
+
 // ---- keys ----
 
 fn digest(viewer: &Viewer) -> String {
@@ -404,6 +462,111 @@ fn what_has_not_changed_is_not_traced_again() {
         viewer.command(command);
         assert!(viewer.draw().expect("a picture"), "{command:?}");
         assert!(!viewer.draw().expect("a picture"), "{command:?} once");
+    }
+}
+
+/// Who traces is who was chosen, which no picture shows, and the times told are its own; of the wipe those of both.
+#[test]
+fn who_was_chosen_traces_and_its_times_are_told() {
+    let mut viewer = viewer("2juy", framed(64, 36), NamedPlan::Fast);
+    assert!(viewer.sessions().is_empty(), "nothing was traced yet");
+    let (mut met, mut both) = (BTreeSet::new(), 0);
+    for command in [
+        Command::Step(1),
+        Command::Level,
+        Command::Threads(1),
+        Command::Threads(1),
+        Command::Level,
+        Command::Plan,
+        Command::Arithmetic,
+        Command::Threads(-1),
+        Command::Wipe,
+        Command::Level,
+        Command::Threads(-1),
+        Command::Wipe,
+        Command::Level,
+    ] {
+        viewer.command(command);
+        viewer.draw().expect("a picture");
+        let State { threads, wiped, .. } = viewer.state;
+        let plans = if wiped { vec![Plan::fast(), Plan::paper()] } else { vec![viewer.plan()] };
+        let level = viewer.state.level().name();
+        let chosen: Vec<_> = plans.into_iter().map(|plan| (plan, level, threads)).collect();
+        let sessions = viewer.sessions();
+        let who = |session: &&Session| (session.plan(), session.level().name(), session.workers());
+        assert_eq!(sessions.iter().map(who).collect::<Vec<_>>(), chosen, "{command:?}");
+        let sum = |of: fn(&Times) -> Duration| -> Duration {
+            sessions.iter().map(|session| of(&session.last().times)).sum()
+        };
+        let split = viewer.split();
+        assert_eq!((split.build, split.trace), (sum(|t| t.build), sum(|t| t.trace)), "{command:?}");
+        met.insert((level, threads));
+        both += usize::from(wiped && split.build != split.trace);
+    }
+    eprintln!("{} choices of level and threads", met.len());
+    assert!(both > 0, "nothing could be mistaken");
+}
+
+/// As many as intervals, not as pictures, and of the last 32 pictures alone.
+#[test]
+fn frames_a_second_are_of_the_last_pictures_shown() {
+    let mut viewer = viewer("2juy", framed(32, 18), NamedPlan::Fast);
+    let pause = Duration::from_millis(60);
+    assert_eq!(viewer.fps(), 0.0);
+    viewer.presented(Duration::from_millis(7));
+    assert_eq!((viewer.fps(), viewer.split().window), (0.0, Duration::from_millis(7)));
+    let shows = |viewer: &mut Viewer, pictures: u32, pause: Duration| {
+        let outer = Instant::now();
+        viewer.presented(Duration::ZERO);
+        let (inner, mut least) = (Instant::now(), Duration::ZERO);
+        for _ in 1..pictures {
+            std::thread::sleep(pause);
+            least = inner.elapsed();
+            viewer.presented(Duration::ZERO);
+        }
+        let n = f64::from(pictures - 1);
+        let bounds = n / outer.elapsed().as_secs_f64()..=n / least.as_secs_f64();
+        assert!(bounds.contains(&viewer.fps()), "{} is not within {bounds:?}", viewer.fps());
+    };
+    let mut fresh = self::viewer("2juy", framed(32, 18), NamedPlan::Fast);
+    shows(&mut fresh, 3, pause);
+    std::thread::sleep(pause);
+    shows(&mut viewer, 32, Duration::from_millis(1));
+    let told = viewer.title();
+    assert!(told.contains(&format!(" {:.0} fps ", viewer.fps())), "{told}");
+}
+
+/// The bar's parts are as long as the frame's, and each stands beside its name in its colour.
+#[test]
+fn where_the_time_goes_is_drawn_to_scale() {
+    let ms = Duration::from_millis;
+    let split = Split { build: ms(10), trace: ms(20), copy: ms(30), overlay: ms(40), window: ms(60) };
+    let mut canvas = Canvas::new(size(640, 240));
+    times::draw(&mut canvas, vec!["some words".into()], &split);
+    let row =
+        |y: u32| -> Vec<[u8; 3]> { (0..640).map(|x| channels(canvas.get(x, y).expect("inside"))).collect() };
+    // 320 pixels are 160 ms, from the sixteenth column on.
+    let runs = |y: u32| -> Vec<usize> { row(y)[16..336].chunk_by(|a, b| a == b).map(<[_]>::len).collect() };
+    let bar: Vec<u32> = (0..240).filter(|y| runs(*y) == [20, 40, 60, 80, 120]).collect();
+    assert_eq!(bar.len(), LINE as usize - 6, "the bar is in rows {bar:?}");
+    let colors: Vec<[u8; 3]> = row(bar[0])[16..336].chunk_by(|a, b| a == b).map(|run| run[0]).collect();
+    let parts = [
+        "build    10.000 ms",
+        "trace    20.000 ms",
+        "copy     30.000 ms",
+        "overlay  40.000 ms",
+        "window   60.000 ms",
+    ];
+    let head = ["some words", "a frame 160.000 ms, 6 a second could be had"]
+        .map(|words| Line::from(words.to_owned()));
+    let legend =
+        parts.iter().zip(&colors).map(|(words, color)| Line { color: Some(*color), words: (*words).into() });
+    let mut lines: Vec<Line> = head.into_iter().chain(legend).collect();
+    lines.push(Line::from(" ".repeat(41)));
+    let mut words = Canvas::new(canvas.size());
+    panel(&mut words, Corner::TopLeft, &lines);
+    for y in (0..240).filter(|y| !bar.contains(y)) {
+        assert!((0..640).all(|x| words.get(x, y) == canvas.get(x, y)), "row {y} says something else");
     }
 }
 

@@ -11,7 +11,7 @@ use verify::scenes::frame::Framing;
 use verify::subject::NamedPlan;
 use verify::view::canvas::{Canvas, packed};
 use verify::view::clock::{Run, Split};
-use verify::view::command::{Command as Asked, Overlay, Press, asked};
+use verify::view::command::{Command as Asked, KEYS, Overlay, Press, asked};
 use verify::view::player::Player;
 use verify::view::state::State;
 use verify::view::viewer::Viewer;
@@ -346,11 +346,14 @@ fn the_mouse_reaches_it() {
     };
     change("a drag", &|| drag(1, [100, 60], [140, 70]));
     change("the right button", &|| drag(3, [100, 60], [120, 50]));
+    let covered = || shown.grab().iter().filter(|pixel| **pixel != first[0]).count();
+    let far = covered();
     change("the wheel", &|| {
         for kind in [4, 5] {
             shown.send(kind, 4, [0; 2]);
         }
     });
+    assert!(covered() > far, "turned away from who turns it, the wheel brings the scene nearer");
     shown.key(u32::from('r'));
     shown.until("the view of the beginning", |seen| seen == first);
     shown.key(u32::from('x'));
@@ -402,6 +405,93 @@ fn overlays_arrive_in_the_window() {
             shown.shoot(name);
         }
     }
+}
+
+/// Every key of the table is a key of the window and of the terminal, and no other key stands for it.
+#[test]
+fn every_key_of_the_table_can_be_pressed() {
+    use Press::{Char, Down, Escape, F1, Home, Left, Right, Up};
+    use crossterm::event::KeyCode;
+    use minifb::Key;
+    use verify::view::{terminal, window};
+    let named = [
+        (Key::Left, Left),
+        (Key::Right, Right),
+        (Key::Up, Up),
+        (Key::Down, Down),
+        (Key::Home, Home),
+        (Key::Escape, Escape),
+        (Key::F1, F1),
+        (Key::Space, Char(' ')),
+        (Key::Comma, Char(',')),
+        (Key::Period, Char('.')),
+        (Key::LeftBracket, Char('[')),
+        (Key::RightBracket, Char(']')),
+        (Key::Equal, Char('=')),
+        (Key::NumPadPlus, Char('+')),
+        (Key::Minus, Char('-')),
+        (Key::NumPadMinus, Char('-')),
+    ];
+    let letters = [
+        Key::A,
+        Key::B,
+        Key::C,
+        Key::D,
+        Key::E,
+        Key::F,
+        Key::G,
+        Key::H,
+        Key::I,
+        Key::J,
+        Key::K,
+        Key::L,
+        Key::M,
+        Key::N,
+        Key::O,
+        Key::P,
+        Key::Q,
+        Key::R,
+        Key::S,
+        Key::T,
+        Key::U,
+        Key::V,
+        Key::W,
+        Key::X,
+        Key::Y,
+        Key::Z,
+    ];
+    // A letter is called after itself.
+    let letters = letters.into_iter().zip('a'..='z').map(|(key, letter)| {
+        assert_eq!(format!("{key:?}").to_ascii_lowercase(), letter.to_string());
+        (key, Char(letter))
+    });
+    let keys: Vec<(Key, Press)> = named.into_iter().chain(letters).collect();
+    for (key, press) in &keys {
+        assert_eq!(window::press(*key), Some(*press), "{key:?}");
+    }
+    assert_eq!([Key::Enter, Key::F2, Key::Key0].map(window::press), [None; 3]);
+    let code = |press: Press| match press {
+        Char(letter) => KeyCode::Char(letter),
+        Left => KeyCode::Left,
+        Right => KeyCode::Right,
+        Up => KeyCode::Up,
+        Down => KeyCode::Down,
+        Home => KeyCode::Home,
+        Escape => KeyCode::Esc,
+        F1 => KeyCode::F(1),
+    };
+    let mut pressed = 0;
+    for (press, _) in KEYS.iter().flat_map(|binding| binding.keys) {
+        assert!(keys.iter().any(|(_, other)| other == press), "no key of a window is {press}");
+        assert_eq!(terminal::press(code(*press)), Some(*press));
+        if let Char(letter) = press {
+            let large = KeyCode::Char(letter.to_ascii_uppercase());
+            assert_eq!(terminal::press(large), Some(*press), "with Shift");
+        }
+        pressed += 1;
+    }
+    assert_eq!([KeyCode::Enter, KeyCode::F(2), KeyCode::Tab].map(terminal::press), [None; 3]);
+    eprintln!("{pressed} keys");
 }
 
 /// A limited run tells how fast it was, in a window and without one.

@@ -11,9 +11,10 @@
 
 use super::contestant::{Kind, Layers, Oath};
 use crate::judge::band::{Band, Open};
+use crate::judge::compare::{Shapeless, compare};
 use crate::judge::outside::Stand;
 use crate::judge::painted;
-use crate::verdict::Verdict;
+use crate::verdict::{Comparison, Verdict};
 use contract::{Camera, Image, MISS, Scene};
 use rayon::prelude::*;
 use reference::{Hit, Ray};
@@ -111,6 +112,16 @@ pub fn check(scene: &Scene, camera: &Camera, truth: &Image, layers: Layers<'_>, 
     });
     // In the order of rows, so that the first is the first.
     rows.collect::<Vec<_>>().into_iter().fold(Checked::default(), Checked::and)
+}
+
+/// Counts what differs from the exact picture, whatever the oath; colours that are not painted count as right.
+///
+/// # Errors
+/// [`Shapeless`] if a layer has not as many entries as the picture has pixels.
+pub fn held(truth: &Image, layers: Layers<'_>) -> Result<Comparison, Shapeless> {
+    let rgba = layers.rgba.unwrap_or(&truth.rgba).to_vec();
+    let image = Image { size: truth.size, ids: layers.ids.to_vec(), t: layers.t.to_vec(), rgba };
+    compare(truth, &image)
 }
 
 fn differs(truth: &Image, layers: Layers<'_>, i: usize) -> bool {

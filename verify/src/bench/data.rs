@@ -233,21 +233,32 @@ impl Row {
 }
 
 impl Bench {
-    /// The word: wrong if the tracer under test is anywhere, not judged if it was timed nowhere or what was asked for is
-    /// missing, else equal or what it promised instead.
+    /// The word: wrong if the tracer under test is anywhere, or its limit, another plan of it or the reference; not judged if it was timed
+    /// nowhere or what was asked for is missing; else equal or what it promised instead.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         let scenes =
             self.scenes.iter().chain(self.curves.iter().flat_map(|c| c.points.iter().map(|p| &p.scene)));
-        let subjects = scenes.map(|scene| scene.subject().map_or(Verdict::NotJudged, |row| row.verdict));
+        let subjects =
+            scenes.clone().map(|scene| scene.subject().map_or(Verdict::NotJudged, |row| row.verdict));
+        let ours = [Kind::Limit, Kind::Picked, Kind::Naive];
+        let wrong = scenes.flat_map(|scene| &scene.contestants);
+        let wrong = wrong.filter(|row| row.verdict == Verdict::Wrong && ours.contains(&row.kind));
+        let wrong = wrong.map(|row| row.verdict);
         let missing = self.absent.iter().filter(|absent| absent.needed).map(|_| Verdict::NotJudged);
-        Verdict::worst_of(subjects.chain(missing))
+        Verdict::worst_of(subjects.chain(wrong).chain(missing))
     }
 
-    /// What a report has to say of it if the tracer under test was wrong or was not judged.
+    /// What a report has to say of it if a tracer of this project was wrong or the one under test was not judged.
     #[must_use]
     pub fn broken_promises(&self) -> Vec<String> {
         let broken = matches!(self.verdict(), Verdict::Wrong | Verdict::NotJudged);
-        broken.then(|| "the tracer that is timed gave a wrong picture, or none".into()).into_iter().collect()
+        broken
+            .then(|| {
+                "a tracer of this project gave a wrong picture when it was timed, or the one under test none"
+                    .into()
+            })
+            .into_iter()
+            .collect()
     }
 }

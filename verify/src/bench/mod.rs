@@ -22,6 +22,7 @@ pub(crate) mod peers;
 pub mod check;
 pub mod rounds;
 pub mod spread;
+pub mod unseen;
 
 pub mod scene;
 

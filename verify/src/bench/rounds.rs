@@ -4,12 +4,14 @@
 //! A turn begins with frames that are not counted, as long as those that are: in an animation the frames before are one's own and not
 //! another's, and a scheduler may take several to give each thread a core of its own. Frames longer than [`LONG`] go without, since
 //! no cache outlasts them.
-//! Each round begins with another contestant. What is kept is every counted frame's time, in all and for building.
+//! Each round begins with another contestant. No two frames are alike ([`unseen`](super::unseen)). What is kept is every counted
+//! frame's time, in all and for building, and what was found in the last one of each turn.
 
-use super::contestant::Contestant;
+use super::contestant::{Contestant, Frame, Kind};
 use super::spread::Spread;
+use super::unseen::{Drawn, Left, Standing, Unseen};
 use crate::subject::SubjectError;
-use contract::{Camera, Scene};
+use contract::Scene;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, Instant};
 
@@ -37,6 +39,7 @@ pub const LONG: f64 = 0.5;
 pub struct Taken {
     /// Of each counted frame, seconds: building, and in all.
     frames: Vec<[f64; 2]>,
+    drawn: Drawn,
 }
 
 /// Where the time of a frame went.
@@ -65,6 +68,12 @@ impl Taken {
         })
     }
 
+    /// Why its times are not those of what it was to show; none if they are.
+    #[must_use]
+    pub fn reproach(&self, standing: Standing) -> Option<String> {
+        self.drawn.reproach(standing)
+    }
+
     /// The shortest frame so far.
     #[must_use]
     pub fn least(&self) -> f64 {
@@ -78,8 +87,7 @@ impl Taken {
 /// What kept a contestant from finishing, with its name.
 pub fn rounds(
     contestants: &mut [Box<dyn Contestant>],
-    scene: &Scene,
-    camera: &Camera,
+    unseen: &mut Unseen<'_>,
     effort: Effort,
     tick: &dyn Fn(),
 ) -> Result<(Vec<Taken>, usize), SubjectError> {
@@ -88,7 +96,7 @@ pub fn rounds(
     loop {
         for k in 0..contestants.len() {
             let k = (k + round) % contestants.len();
-            turn(contestants[k].as_mut(), scene, camera, &mut taken[k])?;
+            turn(contestants[k].as_mut(), unseen, &mut taken[k])?;
         }
         round += 1;
         tick();
@@ -109,36 +117,49 @@ pub fn rounds(
 /// A turn of one contestant.
 pub(super) fn turn(
     contestant: &mut dyn Contestant,
-    scene: &Scene,
-    camera: &Camera,
+    unseen: &mut Unseen<'_>,
     taken: &mut Taken,
 ) -> Result<(), SubjectError> {
     if !taken.frames.iter().any(|[_, total]| *total > LONG) {
-        several(|| one(contestant, scene, camera).map(drop))?;
+        several(|| one(contestant, unseen).map(drop))?;
     }
-    several(|| {
-        taken.frames.push(one(contestant, scene, camera)?);
-        Ok(())
-    })
-}
-
-/// Frames until the time of a turn is over.
-fn several(mut one: impl FnMut() -> Result<(), SubjectError>) -> Result<(), SubjectError> {
-    let start = Instant::now();
-    for _ in 0..FRAMES {
-        one()?;
-        if start.elapsed() >= TURN {
-            break;
-        }
-    }
+    let last = several(|| {
+        let one = one(contestant, unseen)?;
+        taken.frames.push(one.seconds);
+        Ok(one)
+    })?;
+    unseen.hold(&last.scene, &last.left, &mut taken.drawn);
     Ok(())
 }
 
-/// A frame: seconds for building, and in all.
-fn one(contestant: &mut dyn Contestant, scene: &Scene, camera: &Camera) -> Result<[f64; 2], SubjectError> {
+/// Frames until the time of a turn is over; gives what came of the last.
+fn several<T>(mut one: impl FnMut() -> Result<T, SubjectError>) -> Result<T, SubjectError> {
     let start = Instant::now();
-    let frame = contestant.frame(scene, camera).map(|frame| (frame.build, frame.took));
+    let mut last = one()?;
+    for _ in 1..FRAMES {
+        if start.elapsed() >= TURN {
+            break;
+        }
+        last = one()?;
+    }
+    Ok(last)
+}
+
+/// A frame: seconds for building and in all, its spheres, and some of what it left.
+struct One {
+    seconds: [f64; 2],
+    scene: Scene,
+    left: Left,
+}
+
+fn one(contestant: &mut dyn Contestant, unseen: &mut Unseen<'_>) -> Result<One, SubjectError> {
+    let (scene, camera) = (unseen.next(contestant.kind() == Kind::Limit), unseen.camera());
+    let name = contestant.name().to_owned();
+    let start = Instant::now();
+    let frame = contestant.frame(&scene, camera);
     let elapsed = start.elapsed();
-    let (build, took) = frame.map_err(|error| format!("{}: {error}", contestant.name()))?;
-    Ok([build.as_secs_f64(), took.unwrap_or(elapsed).as_secs_f64()])
+    let Frame { build, took, layers } = frame.map_err(|error| format!("{name}: {error}"))?;
+    let seconds = [build.as_secs_f64(), took.unwrap_or(elapsed).as_secs_f64()];
+    let left = unseen.draw(layers);
+    Ok(One { seconds, scene, left })
 }

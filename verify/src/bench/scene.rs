@@ -1,16 +1,18 @@
 //! One frame of one scene: the exact picture is made, every contestant's is checked against it, those that pass are timed in
-//! turn, and then checked once more: memory that is used again may hold what no first frame shows.
+//! turn, in frames that nobody has seen ([`Unseen`]), and then checked once more: memory that is used again may hold what no first frame
+//! shows.
 //!
 //! Embree can be asked in many ways. All are checked and run a heat; only the best [`KEPT`] there are timed in rounds, and of
 //! the others their heat is told. Who is left out gives back its memory at once: a tree over ten million spheres takes more
 //! than a gigabyte.
 
-use super::check::check;
+use super::check::{check, held};
 use super::contestant::{Contestant, Kind};
 use super::data::{Row, SceneBench, Truth};
 use super::ours::Ours;
 use super::outsiders::Field;
 use super::rounds::{Effort, LONG, Taken, rounds, turn};
+use super::unseen::{Standing, Unseen};
 use crate::judge::narrowed::{NarrowedError, narrowed};
 use crate::subject::{NamedPlan, SubjectError};
 use crate::verdict::Verdict;
@@ -87,7 +89,7 @@ pub fn bench(
     let Input { scene, camera, .. } = *input;
     let (image, truth) = truth(scene, camera, setting.seed, progress)?;
     let entrants = entrants(input, setting, &image).map_err(BenchError::Contestant)?;
-    let (rows, rounds) = race(entrants, input, &image, setting.effort, progress)?;
+    let (rows, rounds) = race(entrants, input, &image, setting.effort, setting.seed, progress)?;
     Ok(told(input, setting, truth, rounds, rows))
 }
 
@@ -101,16 +103,21 @@ pub fn race(
     input: &Input<'_>,
     truth: &Image,
     effort: Effort,
+    seed: u64,
     progress: Progress<'_>,
 ) -> Result<(Vec<Row>, usize), BenchError> {
     let Input { scene, camera, .. } = *input;
+    let mut unseen = Unseen::new(scene, camera, truth, seed);
     let tick = progress("check", u32::try_from(entrants.len()).unwrap_or(u32::MAX));
     let (mut rows, mut passed) = (Vec::new(), Vec::new());
     for mut entrant in entrants {
-        let row = checked(entrant.as_mut(), input, truth);
+        let (row, _) = checked(entrant.as_mut(), input, truth);
         if row.remark.is_none() {
-            let heat =
-                if row.kind == Kind::Embree { heat(entrant.as_mut(), input)? } else { Taken::default() };
+            let heat = if row.kind == Kind::Embree {
+                heat(entrant.as_mut(), &mut unseen)?
+            } else {
+                Taken::default()
+            };
             passed.push(Passed { entrant, place: rows.len(), heat });
         }
         rows.push(row);
@@ -126,17 +133,21 @@ pub fn race(
     if !entrants.is_empty() {
         let least = effort.rounds.unwrap_or(super::rounds::LEAST);
         let tick = progress("rounds", u32::try_from(least).unwrap_or(u32::MAX));
-        let outcome = rounds(&mut entrants, scene, camera, effort, &*tick);
+        let outcome = rounds(&mut entrants, &mut unseen, effort, &*tick);
         let (taken, count) = outcome.map_err(BenchError::Contestant)?;
         measured = count;
         for ((entrant, place), taken) in entrants.iter_mut().zip(places).zip(&taken) {
-            let after = checked(entrant.as_mut(), input, truth);
-            match &after.remark {
-                None => time(&mut rows[place], taken, camera),
-                Some(why) => {
+            let (after, standing) = checked(entrant.as_mut(), input, truth);
+            match (&after.remark, standing.and_then(|standing| taken.reproach(standing))) {
+                (Some(why), _) => {
                     let remark = Some(format!("Passed at first, and no longer after the rounds. {why}"));
                     rows[place] = Row { remark, ..after };
                 }
+                (None, Some(why)) => {
+                    let remark = Some(format!("{why} Not timed."));
+                    rows[place] = Row { verdict: Verdict::Wrong, remark, ..after };
+                }
+                (None, None) => time(&mut rows[place], taken, camera),
             }
         }
     }
@@ -191,8 +202,12 @@ fn entrants(
     Ok(entrants)
 }
 
-/// A contestant's row after its picture was checked. It has a remark if it may not be timed.
-pub(super) fn checked(entrant: &mut dyn Contestant, input: &Input<'_>, truth: &Image) -> Row {
+/// A contestant's row after its picture was checked, and how far the picture is off. The row has a remark if it may not be timed.
+pub(super) fn checked(
+    entrant: &mut dyn Contestant,
+    input: &Input<'_>,
+    truth: &Image,
+) -> (Row, Option<Standing>) {
     let (kind, oath) = (entrant.kind(), entrant.oath());
     let mut row = Row {
         name: entrant.name().into(),
@@ -207,10 +222,12 @@ pub(super) fn checked(entrant: &mut dyn Contestant, input: &Input<'_>, truth: &I
         mega_rays_per_second: None,
         remark: None,
     };
+    let mut standing = None;
     match entrant.frame(input.scene, input.camera) {
         Err(error) => row.remark = Some(format!("Gave no picture: {error}. Not timed.")),
         Ok(frame) => {
             let checked = check(input.scene, input.camera, truth, frame.layers, oath);
+            standing = held(truth, frame.layers).ok().map(|comparison| Standing::from(&comparison));
             row.verdict = checked.verdict();
             (row.differing, row.wrong, row.not_stated) =
                 (checked.differing, checked.wrong, checked.not_stated);
@@ -228,7 +245,7 @@ pub(super) fn checked(entrant: &mut dyn Contestant, input: &Input<'_>, truth: &I
             }
         }
     }
-    row
+    (row, standing)
 }
 
 /// Who may be timed, its place among the rows, and its heat if it had one.
@@ -239,10 +256,10 @@ struct Passed {
 }
 
 /// A few turns, so that one bad moment leaves nobody out; of long frames one.
-fn heat(entrant: &mut dyn Contestant, input: &Input<'_>) -> Result<Taken, BenchError> {
+fn heat(entrant: &mut dyn Contestant, unseen: &mut Unseen<'_>) -> Result<Taken, BenchError> {
     let mut taken = Taken::default();
     for _ in 0..HEAT {
-        turn(entrant, input.scene, input.camera, &mut taken).map_err(BenchError::Contestant)?;
+        turn(entrant, unseen, &mut taken).map_err(BenchError::Contestant)?;
         if taken.least() > LONG {
             break;
         }

@@ -160,10 +160,15 @@ impl Film {
         if range.is_empty() { Err(self.wrong(format!("`{}` has no frame", self.frames))) } else { Ok(range) }
     }
 
-    /// Whether two have a frame in common, of one size.
+    /// Whether two have a frame in common, of one size, however scene and size are written.
     fn overlaps(&self, other: &Self) -> bool {
         let [Ok(one), Ok(two)] = [self.range(), other.range()] else { return false };
-        (&self.scene, &self.size) == (&other.scene, &other.size) && one.start < two.end && two.start < one.end
+        let [Ok(size), Ok(its)] = [self.size(), other.size()] else { return false };
+        let same = match [&self.scene, &other.scene].map(|word| Source::parse(word)) {
+            [Ok(scene), Ok(its)] => scene == its,
+            _ => self.scene == other.scene,
+        };
+        same && size == its && one.start < two.end && two.start < one.end
     }
 
     /// Columns and rows of its pictures.

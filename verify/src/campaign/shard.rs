@@ -23,11 +23,32 @@ pub const MOST_SHARDS: u64 = 1_000_000;
 
 /// Which shard of how many, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "Numbers")]
 pub struct Which {
     /// Which.
     pub shard: u64,
     /// Of how many.
     pub of: u64,
+}
+
+/// Both numbers as a file has them.
+#[derive(Deserialize)]
+struct Numbers {
+    shard: u64,
+    of: u64,
+}
+
+impl TryFrom<Numbers> for Which {
+    type Error = String;
+
+    fn try_from(Numbers { shard, of }: Numbers) -> Result<Self, String> {
+        if shard == 0 || shard > of || of > MOST_SHARDS {
+            return Err(format!(
+                "`{shard}/{of}`: shards count from 1 to N, of which there are at most {MOST_SHARDS}"
+            ));
+        }
+        Ok(Self { shard, of })
+    }
 }
 
 impl FromStr for Which {
@@ -36,12 +57,7 @@ impl FromStr for Which {
     fn from_str(text: &str) -> Result<Self, String> {
         let numbers = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
         let (shard, of) = numbers.ok_or_else(|| format!("`{text}` is not I/N, as 3/7"))?;
-        if shard == 0 || shard > of || of > MOST_SHARDS {
-            return Err(format!(
-                "`{text}`: shards count from 1 to N, of which there are at most {MOST_SHARDS}"
-            ));
-        }
-        Ok(Self { shard, of })
+        Numbers { shard, of }.try_into()
     }
 }
 

@@ -1,12 +1,13 @@
 //! One view: the exact picture, every method's picture held against it, then all of them timed in turn, and looked at once more: whose
-//! picture is then another has no time.
+//! picture is then another has no time, and none who was timed for showing something else.
 
 use super::data::{Point, View};
 use super::view::Distance;
-use crate::bench::contestant::{Contestant, Layers};
+use crate::bench::check::held;
+use crate::bench::contestant::Contestant;
 use crate::bench::rounds::{Effort, rounds};
 use crate::bench::scene::{BenchError, Progress, truth};
-use crate::judge::compare::compare;
+use crate::bench::unseen::{Standing, Unseen};
 use crate::methods::Method;
 use crate::spu::cost::{SPUS, frame_cost};
 use crate::spu::model::measure_nearest;
@@ -104,14 +105,7 @@ fn pictured(
     truth: &Image,
 ) -> Result<(Comparison, bool), String> {
     let layers = entrant.frame(scene, camera).map_err(|error| error.to_string())?.layers;
-    Ok((held(truth, layers)?, layers.rgba.is_some()))
-}
-
-/// Layers against the exact picture; colours that are not painted count as right.
-fn held(truth: &Image, layers: Layers<'_>) -> Result<Comparison, String> {
-    let rgba = layers.rgba.unwrap_or(&truth.rgba).to_vec();
-    let image = Image { size: truth.size, ids: layers.ids.to_vec(), t: layers.t.to_vec(), rgba };
-    compare(truth, &image).map_err(|error| error.to_string())
+    Ok((held(truth, layers).map_err(|error| error.to_string())?, layers.rgba.is_some()))
 }
 
 /// Times those that gave a picture, and keep to it.
@@ -128,14 +122,19 @@ fn time(
     }
     let tick = progress("rounds", u32::try_from(asked.rounds).unwrap_or(u32::MAX));
     let effort = Effort { rounds: Some(asked.rounds), time: Duration::ZERO };
-    let (taken, _) =
-        rounds(entrants, asked.scene, &at.camera, effort, &*tick).map_err(BenchError::Contestant)?;
+    let mut unseen = Unseen::new(asked.scene, &at.camera, truth, asked.seed);
+    let (taken, _) = rounds(entrants, &mut unseen, effort, &*tick).map_err(BenchError::Contestant)?;
     let rays = at.camera.size().pixels() as f64;
     for ((place, entrant), taken) in places.iter().zip(entrants).zip(taken) {
         let point = &mut points[*place];
         let after = pictured(entrant.as_mut(), asked.scene, &at.camera, truth).map(|(after, _)| after).ok();
         if after == point.comparison {
-            point.ns_per_ray = taken.timing().map(|timing| timing.total.median * 1e9 / rays);
+            let standing = after.as_ref().map(Standing::from);
+            point.remark = standing.and_then(|standing| taken.reproach(standing));
+            match &point.remark {
+                None => point.ns_per_ray = taken.timing().map(|timing| timing.total.median * 1e9 / rays),
+                Some(_) => point.comparison = None,
+            }
         } else {
             point.remark = Some("Gave another picture after it was timed.".into());
             // The worse one is told, and none at all is worst.

@@ -78,6 +78,16 @@ struct Interval {
     speed: f32,
 }
 
+impl Interval {
+    /// Whether the truth, t of a hit or a miss, may be so.
+    fn allows(self, truth: Option<f32>) -> bool {
+        match truth {
+            None => !self.certain,
+            Some(t) => self.possible && meet([self.lo, self.hi].map(f64::from), t, f64::from(self.speed)),
+        }
+    }
+}
+
 struct Ask<'a> {
     scene: &'a Scene,
     rays: &'a [Ray; LANES],
@@ -169,13 +179,7 @@ fn judge(ray: &Ray, scene: &Scene, said: &Said, lane: usize, level: Level) -> u6
         assert!(agree, "f64 says {by_f64:?} of sphere {id}, the truth is {truth:?}; {}", replay());
         judged += 1;
         let Some(by_f32) = said.found.get(id).and_then(|found| found[lane]) else { continue };
-        let agree = match truth {
-            None => !by_f32.certain,
-            Some(Hit { t, .. }) => {
-                let ends = [by_f32.lo, by_f32.hi].map(f64::from);
-                by_f32.possible && meet(ends, t, f64::from(by_f32.speed))
-            }
-        };
+        let agree = by_f32.allows(truth.map(|hit| hit.t));
         assert!(agree, "f32 says {by_f32:?} of sphere {id}, the truth is {truth:?}; {}", replay());
         judged += 1;
     }
@@ -191,4 +195,30 @@ fn alone(tracer: &Tracer, ray: &Ray, sphere: &Sphere) -> Option<Hit> {
 fn meet([lo, hi]: [f64; 2], t: f32, speed: f64) -> bool {
     let [before, after] = [t.next_down(), t.next_up()].map(|t| f64::from(t) * speed);
     !t.is_finite() || !after.is_finite() || (lo <= after && before <= hi)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Interval;
+
+    /// What f32 says is false if a certain hit is none, an impossible one is, or the root lies beyond its ends.
+    #[test]
+    fn what_is_false_is_noticed() {
+        let said = |possible, certain, lo, hi| Interval { possible, certain, lo, hi, speed: 2.0 };
+        for (said, truth, so) in [
+            (said(true, true, 3.0, 5.0), Some(2.0), true),
+            (said(true, false, 3.0, 5.0), Some(2.0), true),
+            (said(true, false, 3.0, 5.0), None, true),
+            (said(false, false, 0.0, 0.0), None, true),
+            (said(true, true, 3.0, 5.0), None, false),
+            (said(false, false, 3.0, 5.0), Some(2.0), false),
+            (said(true, true, 4.1, 5.0), Some(2.0), false),
+            (said(true, true, 3.0, 3.9), Some(2.0), false),
+            // The neighbours of t, times the speed, are the last that may be.
+            (said(true, true, 2.0 * 2.0f32.next_up(), 5.0), Some(2.0), true),
+            (said(true, true, (2.0 * 2.0f32.next_up()).next_up(), 5.0), Some(2.0), false),
+        ] {
+            assert_eq!(said.allows(truth), so, "{said:?}, {truth:?}");
+        }
+    }
 }

@@ -309,7 +309,7 @@ impl Proof {
         let refuted = |name| of(name).is_some_and(|one| matches!(one.outcome, Outcome::Refuted(_)));
         let claim = CLAIMS.iter().find(|claim| lemmas.iter().all(|name| claim.lemmas.contains(name)));
         let (figure, command) =
-            claim.map_or((String::new(), HOW.into()), |claim| (claim.figure(), claim.command()));
+            claim.map_or((String::new(), HOW.into()), |claim| (claim.figure_of(lemmas), claim.command()));
         let all = lemmas.iter().all(proved);
         let (said, figure) = if all {
             (Answer::Yes, figure)

@@ -7,13 +7,15 @@ use crate::report::Evidence;
 use crate::report::words::figure;
 use crate::scenes::catalogue::Source;
 use crate::scenes::frame::Framing;
-use contract::{Image, Scene, Size};
+use contract::Size;
 use optimized::plan::{Arithmetic, Cells, Margins, Plan, Resolution, Voxelizer};
 use optimized::{Form, Level, Tracer};
+use std::sync::OnceLock;
 
 pub(super) fn claims(looked: &[Looked], said: &[Finding]) -> Vec<PaperClaim> {
     let visible = Proof::of(VISIBLE, said);
-    let [textbook, perpendicular] = [Form::Textbook, Form::Perpendicular].map(from_afar);
+    static AFAR: OnceLock<[(Vec<Answer>, String); 2]> = OnceLock::new();
+    let [textbook, perpendicular] = AFAR.get_or_init(|| [Form::Textbook, Form::Perpendicular].map(from_afar));
     vec![
         asked("Culling cuts tests 4 to 8 times", Evidence::Measured, looked, |look| {
             let factor = look.survey.culling.factor;
@@ -55,11 +57,15 @@ pub(super) fn claims(looked: &[Looked], said: &[Finding]) -> Vec<PaperClaim> {
         several(
             "… from any distance, where lists lose nothing: in the textbook form, without margins",
             Evidence::Sampled,
-            (&textbook.0, textbook.1),
+            (&textbook.0, textbook.1.clone()),
         )
         .against(FAR.told())
         .by(FAR.command()),
-        several("… in the perpendicular form", Evidence::Sampled, (&perpendicular.0, perpendicular.1)),
+        several(
+            "… in the perpendicular form",
+            Evidence::Sampled,
+            (&perpendicular.0, perpendicular.1.clone()),
+        ),
     ]
 }
 
@@ -99,20 +105,20 @@ fn differing(form: Form, cells: f64) -> Option<[u64; 2]> {
     };
     let camera = framing.camera(&scene.clone().into()).ok()?;
     let level = Level::available().last().copied().unwrap_or(Level::SCALAR);
-    let picture = |plan: Plan, scene: &Scene| -> Option<Image> {
-        Some(Tracer::new(plan, level).render(scene, &camera).ok()?.image)
+    let naive = match form {
+        Form::Textbook => reference::Arithmetic::F32Textbook,
+        Form::Perpendicular => reference::Arithmetic::F32Perpendicular,
     };
-    let arithmetic = Arithmetic::Rounded(form);
-    let naive = picture(Plan { arithmetic, ..Plan::safe() }, scene)?;
+    let naive = reference::Tracer::new(naive).render(scene, &camera).ok()?.image;
     let bare = Plan {
         voxelizer: Voxelizer::BoxRange,
         cells: Cells::Lists,
         margins: Margins::None,
         resolution: Resolution::Fixed(16),
-        arithmetic,
+        arithmetic: Arithmetic::Rounded(form),
         ..Plan::paper()
     };
-    let given = picture(bare, scene)?;
+    let given = Tracer::new(bare, level).render(scene, &camera).ok()?.image;
     let differ = naive.ids.iter().zip(&given.ids).filter(|(a, b)| a != b).count();
     let hits = naive.ids.iter().filter(|id| **id != contract::MISS).count();
     Some([differ as u64, hits as u64])

@@ -37,7 +37,9 @@ pub struct Finding {
     pub paths: usize,
     /// Inputs for which terms and scalar machine were compared.
     pub compared: u64,
-    /// Assumptions without which it fails.
+    /// Assumptions that were left out, one at a time.
+    pub left_out: usize,
+    /// Those of them without which it fails; of the others no solver could tell.
     pub needed: usize,
     /// What is wrong with the proof itself; empty if nothing is.
     pub wrong: Vec<String>,
@@ -128,6 +130,7 @@ pub fn prove(lemma: &Lemma, solvers: &[Solver], effort: &Effort, rng: &mut impl 
         seconds: 0.0,
         paths: 0,
         compared: 0,
+        left_out: 0,
         needed: 0,
         wrong: lemma.witnessed(),
     };
@@ -365,6 +368,7 @@ impl Lemma {
             if i != drawn && effort.faults < usize::MAX {
                 continue;
             }
+            finding.left_out += 1;
             match self.try_fault(Wrong::Assumption(i), solvers, effort, rng) {
                 Found::Inputs(_) => finding.needed += 1,
                 Found::Unknown(_) => {}

@@ -7,8 +7,9 @@
 //! means yes for one of these ([`Lanes::Alike`], [`Lanes::Four`]).
 //!
 //! *Rim.* A kernel takes some numbers as plain f32 and spreads them. A term passes for one as a NaN that carries its place. Only a change of
-//! sign is understood; what plain arithmetic would make of it is lost. This is why each statement is computed from its terms
-//! for many inputs and held against the scalar machine before a solver sees it ([`super::theorem`]).
+//! sign is understood; what plain arithmetic would make of it is lost. Likewise a count passes for a plain i32, of which only one less is
+//! understood. This is why each statement is computed from its terms for many inputs and held against the scalar machine before a solver
+//! sees it ([`super::theorem`]).
 
 use super::term::{Node, Op, Sort, Term, Terms};
 use optimized::machine::{LANES, Machine, Site};
@@ -192,12 +193,33 @@ const TOKEN: u32 = 0x7fd0_0000;
 /// The bits of the place.
 const PLACE: u32 = 0x000f_ffff;
 const SIGN: u32 = 0x8000_0000;
+/// The bits of an i32 that carries a term, above its place and, in the last one, whether it is the count itself or one less.
+const COUNT: i32 = 0x5c00_0000;
 
 impl<const N: usize> Symbolic<'_, N> {
     /// A term as a plain number, to be spread over lanes again.
     #[must_use]
     pub fn token(self, term: Term) -> f32 {
         f32::from_bits(TOKEN | term.place())
+    }
+
+    /// A count as a plain number, to be spread over lanes again, or one less than it.
+    #[must_use]
+    pub fn count(self, term: Term) -> i32 {
+        COUNT | (term.place() << 1).cast_signed() | 1
+    }
+
+    fn integer(self, x: i32) -> Term {
+        let bits = (x ^ COUNT).cast_unsigned();
+        if bits >> 1 > PLACE {
+            return self.0.make(Node::Integer(x));
+        }
+        let term = self.0.terms.borrow().at(bits >> 1).expect("an integer that carries no term");
+        if bits & 1 == 1 {
+            return term;
+        }
+        let less = self.0.make(Node::Integer(-1));
+        self.0.make(Node::Op(Op::AddI, [term, less, term]))
     }
 
     fn term(self, x: f32) -> Term {
@@ -261,7 +283,7 @@ impl<const N: usize> Machine for Symbolic<'_, N> {
         [self.term(x); N]
     }
     fn splat_i(self, x: i32) -> [Term; N] {
-        [self.0.make(Node::Integer(x)); N]
+        [self.integer(x); N]
     }
     fn add(self, x: Self::F, y: Self::F) -> Self::F {
         self.two(Op::Add, x, y)

@@ -18,6 +18,8 @@ pub trait Ask<M: Machine> {
     fn integer(&mut self, name: &'static str) -> M::I;
     /// Any f32, as a plain number for kernels that spread it themselves.
     fn plain(&mut self, name: &'static str) -> f32;
+    /// Any i32 above 0, as a plain number likewise; what is not above 0 counts as 1.
+    fn count(&mut self, name: &'static str) -> i32;
 }
 
 /// What is assumed, and what follows.
@@ -142,6 +144,11 @@ impl<'a, const N: usize> Ask<Symbolic<'a, N>> for Symbols<'_> {
         let term = self.input(name, Sort::Number);
         self.space.machine::<N>().token(term)
     }
+    fn count(&mut self, name: &'static str) -> i32 {
+        let (machine, given) = (self.space.machine::<N>(), [self.input(name, Sort::Integer); N]);
+        let one = machine.splat_i(1);
+        machine.count(machine.select_i(machine.lt_i(given, one), one, given)[0])
+    }
 }
 
 /// Inputs of which the bits are told.
@@ -156,6 +163,9 @@ impl Ask<Scalar> for Told<'_> {
     }
     fn plain(&mut self, name: &'static str) -> f32 {
         f32::from_bits((self.0)(name, Sort::Number))
+    }
+    fn count(&mut self, name: &'static str) -> i32 {
+        (self.0)(name, Sort::Integer).cast_signed().max(1)
     }
 }
 

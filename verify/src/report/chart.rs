@@ -16,6 +16,8 @@ const TOP: i32 = 6;
 pub(super) struct Chart {
     pub(super) ticks: Vec<Tick>,
     pub(super) bars: Vec<Bar>,
+    /// From where to where the decades' line is drawn.
+    pub(super) base: [String; 2],
 }
 
 /// A line across the axis, and its label.
@@ -62,6 +64,7 @@ impl Chart {
         Self {
             ticks: std::iter::once(zero).chain(decades).collect(),
             bars: subjects.iter().map(bar).collect(),
+            base: [percent(DECADES.0), percent(DECADES.1)],
         }
     }
 }

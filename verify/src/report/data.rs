@@ -258,4 +258,13 @@ impl SceneReport {
             == (&next.name, next.frames, next.width, next.height);
         same && self.frame < next.frame && subjects(self) == subjects(next)
     }
+
+    /// What so many frames are called of which it is the first.
+    pub(super) fn called(&self, frames: usize) -> String {
+        match frames {
+            1 if self.frames > 1 => format!("{}, frame {}", self.name, self.frame),
+            1 => self.name.clone(),
+            _ => format!("{}, {frames} frames", self.name),
+        }
+    }
 }

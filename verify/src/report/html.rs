@@ -7,7 +7,7 @@ use super::film::{Item, items};
 use super::outside;
 use super::pictures::ZOOM_SIDE;
 use super::view::{Badge, HEADINGS, SceneView};
-use super::words::{VERDICTS, sentence};
+use super::words::{VERDICTS, Whose, sentence};
 use super::{Evidence, Live, Report, ScenePictures};
 use crate::picture::{PALETTE, RARE};
 use askama::Template;
@@ -71,7 +71,7 @@ pub fn html(report: &Report, pictures: &[ScenePictures], parts: &[Part]) -> Resu
     let page = Page {
         report,
         badge: report.verdict.into(),
-        sentence: sentence(report.verdict, !report.broken.is_empty()),
+        sentence: sentence(report.verdict, whose(report)),
         tally: tally(report),
         known_faults: known_faults(report),
         headings: HEADINGS,
@@ -108,6 +108,18 @@ fn policy(scripts: &[&str], compiles: bool) -> String {
     let hash = |script: &&str| format!(" 'sha256-{}'", BASE64_STANDARD.encode(Sha256::digest(script)));
     let hashes: String = scripts.iter().map(hash).collect();
     format!("; script-src{hashes}{}", if compiles { " 'wasm-unsafe-eval'" } else { "" })
+}
+
+/// Who alone has the verdict of the whole, subjects before witnesses.
+fn whose(report: &Report) -> Whose {
+    let subjects = report.scenes.iter().flat_map(|scene| &scene.subjects).filter(|s| !s.known_fault);
+    let mut witnesses = report.scenes.iter().flat_map(|scene| &scene.outside);
+    match report.verdict {
+        verdict if subjects.map(|subject| subject.verdict).any(|own| own == verdict) => Whose::Subject,
+        verdict if witnesses.any(|hearing| hearing.verdict() == verdict) => Whose::Witness,
+        _ if !report.broken.is_empty() => Whose::Chapter,
+        _ => Whose::Subject,
+    }
 }
 
 /// How often each verdict was given, zeros included; known faults are not counted.

@@ -1,12 +1,13 @@
-//! What outside witnesses said, in words: a line for each witness on each scene, and the rows of the page's table.
-//! Hearings come in, texts go out. A hearing that failed says so first.
+//! What outside witnesses said, in words: a line for each witness on each scene or film, and the rows of the page's table.
+//! Scenes with their hearings come in, texts go out. A hearing that failed says so first.
 
 use super::SceneReport;
 use super::view::Badge;
 use super::words::{count, word};
 use crate::judge::outside::{Hearing, ULP_CLASSES};
+use crate::verdict::Verdict;
 
-/// Headings of [`row`], but for the error classes of t.
+/// Headings of [`rows`], but for the error classes of t.
 pub(super) const HEADINGS: [&str; 9] = [
     "rays",
     "seen by both",
@@ -19,15 +20,19 @@ pub(super) const HEADINGS: [&str; 9] = [
     "ulp of t, most",
 ];
 
-/// A hearing as a row of the table.
-pub(super) struct Row<'a> {
-    pub(super) data: &'a Hearing,
+/// What a witness, asked in one way, said of a scene or of all frames of a film, as a row of the table.
+pub(super) struct Row {
+    pub(super) name: String,
     pub(super) badge: Badge,
     pub(super) cells: Vec<String>,
 }
 
-impl<'a> Row<'a> {
-    pub(super) fn new(data: &'a Hearing) -> Self {
+/// A row for each witness and each way in which it was asked.
+pub(super) fn rows(frames: &[&SceneReport]) -> Vec<Row> {
+    let all = || frames.iter().flat_map(|scene| &scene.outside);
+    let asked = |hearing: &Hearing| format!("{}, {}", hearing.witness, hearing.mode);
+    let row = |name: String| {
+        let (verdict, data) = summed(all().filter(|hearing| asked(hearing) == name));
         let cells = [
             data.rays,
             data.hits,
@@ -40,8 +45,25 @@ impl<'a> Row<'a> {
             data.t_ulp_max,
         ];
         let cells = cells.into_iter().chain(data.t_ulp).map(count).collect();
-        Self { data, badge: data.verdict().into(), cells }
+        Row { name, badge: verdict.into(), cells }
+    };
+    each_once(all().map(asked)).into_iter().map(row).collect()
+}
+
+/// Hearings added up. Of a frame of which a witness stated nothing another one says nothing either, so the verdict is the worst of all.
+fn summed<'a>(hearings: impl Iterator<Item = &'a Hearing> + Clone) -> (Verdict, Hearing) {
+    let verdict = Verdict::worst_of(hearings.clone().map(Hearing::verdict));
+    (verdict, hearings.fold(Hearing::default(), Hearing::and))
+}
+
+fn each_once<T: PartialEq>(all: impl Iterator<Item = T>) -> Vec<T> {
+    let mut met = Vec::new();
+    for one in all {
+        if !met.contains(&one) {
+            met.push(one);
+        }
     }
+    met
 }
 
 /// Headings of the histogram of t's error.
@@ -52,32 +74,26 @@ pub(super) fn classes() -> Vec<String> {
     upper.chain(["more".to_owned()]).collect()
 }
 
-/// A sentence for each witness of a scene.
-pub(super) fn sentences(scene: &SceneReport) -> Vec<String> {
-    let mut witnesses: Vec<&str> = Vec::new();
-    for hearing in &scene.outside {
-        if !witnesses.contains(&hearing.witness.as_str()) {
-            witnesses.push(&hearing.witness);
-        }
-    }
-    let of = |name: &str| -> Vec<&Hearing> { scene.outside.iter().filter(|h| h.witness == name).collect() };
-    witnesses.into_iter().map(|name| sentence(&scene.name, name, &of(name))).collect()
+/// A sentence for each witness of a scene, or of all frames of a film.
+pub(super) fn sentences(frames: &[&SceneReport]) -> Vec<String> {
+    let all =
+        || frames.iter().flat_map(|scene| scene.outside.iter().map(move |hearing| (scene.frame, hearing)));
+    let of = |name: &str| -> Vec<(usize, &Hearing)> { all().filter(|(_, h)| h.witness == name).collect() };
+    let what = frames.first().map_or_else(String::new, |scene| scene.called(frames.len()));
+    let film = frames.len() > 1;
+    let witnesses = each_once(all().map(|(_, hearing)| hearing.witness.as_str()));
+    witnesses.into_iter().map(|name| sentence(&what, film, name, &of(name))).collect()
 }
 
-fn sentence(scene: &str, witness: &str, hearings: &[&Hearing]) -> String {
-    let (mut modes, mut sum): (Vec<&str>, _) = (Vec::new(), Hearing::default());
-    for hearing in hearings {
-        let mode = hearing.mode.split(',').next().unwrap_or_default();
-        if !modes.contains(&mode) {
-            modes.push(mode);
-        }
-        sum = sum.and(hearing);
-    }
+fn sentence(what: &str, film: bool, witness: &str, hearings: &[(usize, &Hearing)]) -> String {
+    let (verdict, sum) = summed(hearings.iter().map(|(_, hearing)| *hearing));
+    let ways = each_once(hearings.iter().map(|(_, hearing)| &hearing.mode));
+    let modes = each_once(ways.iter().map(|mode| mode.split(',').next().unwrap_or_default()));
     let mut text = format!(
-        "{witness} on {scene}: {}. Asked in {} ways ({}), {} rays: {} in its band, of which integers decided {} for the \
+        "{witness} on {what}: {}. Asked in {} ways ({}), {} rays: {} in its band, of which integers decided {} for the \
          reference and {} as ties; {} not stated; t off by at most {} ulp.",
-        word(sum.verdict()),
-        hearings.len(),
+        word(verdict),
+        ways.len(),
         modes.join(", "),
         count(sum.rays),
         count(sum.in_band),
@@ -87,7 +103,11 @@ fn sentence(scene: &str, witness: &str, hearings: &[&Hearing]) -> String {
         count(sum.t_ulp_max),
     );
     if sum.failures() > 0 {
-        let first = sum.first.as_deref().unwrap_or_default();
+        let first = hearings.iter().find_map(|(frame, hearing)| Some((frame, hearing.first.as_deref()?)));
+        let first = match first {
+            Some((frame, first)) if film => format!("in frame {frame}: {first}"),
+            first => first.map_or_else(String::new, |(_, first)| first.to_owned()),
+        };
         text += &format!(" {} answers cannot be explained, the first: {first}.", count(sum.failures()));
     }
     text

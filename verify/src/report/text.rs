@@ -107,12 +107,14 @@ fn line(row: &[String; 8], widths: &[usize; 8], verdict: Style) -> String {
 
 /// What outside witnesses said, why someone was not judged, who did not judge, and the word for the whole.
 fn ending(report: &Report, color: bool) -> String {
-    let said: String = report.scenes.iter().flat_map(sentences).map(|line| wrapped(&line) + "\n").collect();
+    let films = report.scenes.chunk_by(SceneReport::is_followed_by);
+    let said = films.flat_map(|film| sentences(&film.iter().collect::<Vec<_>>()));
+    let said: String = said.map(|line| wrapped(&line) + "\n").collect();
     let silent =
         report.scenes.iter().flat_map(|scene| scene.subjects.iter().map(move |subject| (scene, subject)));
     let silent = silent.filter(|(_, subject)| subject.verdict == Verdict::NotJudged);
-    let why =
-        silent.map(|(scene, subject)| format!("{} on {}: {}", subject.name, scene.name, subject.because));
+    let why = silent
+        .map(|(scene, subject)| format!("{} on {}: {}", subject.name, scene.called(1), subject.because));
     let why: String = why.map(|line| wrapped(&line) + "\n").collect();
     let broken = report
         .broken

@@ -3,7 +3,7 @@
 //! reads goes out; escaping is the template's.
 
 use super::chart::Chart;
-use super::outside::{Row, sentences};
+use super::outside::{Row, rows, sentences};
 use super::pictures::{Differing, SubjectPictures};
 use super::words::{NONE, count, duration, mega_rays, sign, word};
 use super::{ScenePictures, SceneReport, SubjectReport};
@@ -29,7 +29,7 @@ pub(super) struct SceneView<'a> {
     pub(super) truth: Option<String>,
     pub(super) chart: Chart,
     pub(super) subjects: Vec<SubjectView<'a>>,
-    pub(super) outside: Vec<Row<'a>>,
+    pub(super) outside: Vec<Row>,
     pub(super) said: Vec<String>,
     /// Whether its pictures are shown larger than they are, so that their pixels are to be seen as such.
     pub(super) small: bool,
@@ -105,8 +105,8 @@ impl<'a> SceneView<'a> {
             truth: pictures.truth.as_deref().map(uri),
             chart: Chart::new(&data.subjects),
             subjects: subjects.map(|(k, s)| SubjectView::new(&anchor, k, s, picture(k))).collect(),
-            outside: data.outside.iter().map(Row::new).collect(),
-            said: sentences(data),
+            outside: rows(&[data]),
+            said: sentences(&[data]),
             anchor,
             data,
             small: data.width < SMALL,

@@ -33,15 +33,36 @@ pub(crate) fn sign(verdict: Verdict) -> &'static str {
     }
 }
 
+/// From whom a run has its verdict.
+#[derive(Clone, Copy)]
+pub(crate) enum Whose {
+    Subject,
+    Witness,
+    Chapter,
+}
+
 /// What the verdict means for a whole run.
-pub(crate) fn sentence(verdict: Verdict, elsewhere: bool) -> &'static str {
-    match verdict {
-        Verdict::Wrong if elsewhere => "A promise is broken, which is told below.",
-        Verdict::Equal => "Every picture has the bits of the exact one.",
-        Verdict::WithinBound => "Every difference lies where the subject's stated arithmetic cannot decide.",
-        Verdict::Undecidable => "Some pixels lie outside what a subject states anything about.",
-        Verdict::Wrong => "At least one pixel is wrong beyond what its subject's arithmetic explains.",
-        Verdict::NotJudged => "Something here was not compared. That is no pass.",
+pub(crate) fn sentence(verdict: Verdict, whose: Whose) -> &'static str {
+    match (verdict, whose) {
+        (Verdict::NotJudged, _) => "Something here was not compared. That is no pass.",
+        (Verdict::Equal, _) => "Every picture has the bits of the exact one.",
+        (Verdict::Wrong, Whose::Chapter) => "A promise is broken, which is told below.",
+        (Verdict::Wrong, Whose::Witness) => {
+            "An outside judge and the exact picture differ beyond what the judge's rounding explains."
+        }
+        (Verdict::Undecidable, Whose::Witness) => {
+            "Some rays lie outside what an outside judge states anything about."
+        }
+        (Verdict::WithinBound, Whose::Witness) => {
+            "Every picture has the bits of the exact one, and where an outside judge differs, its rounding cannot decide."
+        }
+        (Verdict::WithinBound, _) => {
+            "Every difference lies where the subject's stated arithmetic cannot decide."
+        }
+        (Verdict::Undecidable, _) => "Some pixels lie outside what a subject states anything about.",
+        (Verdict::Wrong, Whose::Subject) => {
+            "At least one pixel is wrong beyond what its subject's arithmetic explains."
+        }
     }
 }
 

@@ -1,10 +1,10 @@
 //! Where each method breaks, as a table for the terminal.
 
 use super::breakdown::WORDS;
-use super::data::Stability;
+use super::data::{Count, Stability};
 use crate::plot::heat::share;
 use crate::plot::power;
-use crate::report::words::count;
+use crate::report::words::{NONE, count};
 use std::fmt::Write;
 
 /// The table.
@@ -20,10 +20,10 @@ pub fn text(stability: &Stability) -> String {
             "method", WORDS[0], WORDS[1], WORDS[2], WORDS[3], "most"
         );
         for line in &curve.lines {
-            let most = line.counts.iter().filter_map(super::data::Count::rate).fold(0.0, f64::max);
+            let most = line.counts.iter().filter_map(Count::rate).reduce(f64::max);
             let (up, down) = (line.breakdown.up, line.breakdown.down);
             let either = |k: usize| match (down[k], up[k]) {
-                _ if k == 1 && compared < 1_000_000 => "–".to_owned(),
+                _ if k == 1 && compared < 1_000_000 => NONE.to_owned(),
                 (None, None) => {
                     let ways = [true, false].map(|up| curve.never(line, up));
                     ways.into_iter().find(|said| *said != "never").unwrap_or("never").to_owned()
@@ -40,7 +40,7 @@ pub fn text(stability: &Stability) -> String {
                 cells[1],
                 cells[2],
                 cells[3],
-                share(most)
+                most.map_or_else(|| NONE.to_owned(), share)
             );
         }
     }
@@ -53,13 +53,25 @@ pub fn text(stability: &Stability) -> String {
             map.columns.iter().map(|c| format!("{c:>11}")).collect::<String>()
         );
         for (row, counts) in map.rows.iter().zip(&map.counts) {
-            let cells =
-                counts.iter().map(|c| format!("{:>11}", c.rate().map_or_else(|| "–".to_owned(), share)));
+            let cells = counts.iter().map(|count| format!("{:>11}", cell(count)));
             _ = writeln!(text, "  {row:<32}{}", cells.collect::<String>());
+        }
+        if map.counts.iter().flatten().any(|count| count.rays > 0 && count.refused > 0) {
+            _ = writeln!(text, "  * of those that were answered; others were refused");
         }
     }
     for absent in &stability.absent {
         _ = writeln!(text, "{}: not there. {}", absent.judge, absent.why);
     }
     text
+}
+
+/// How much of a cell of a map is wrong, with a mark where some of it was refused.
+fn cell(count: &Count) -> String {
+    match count.rate() {
+        None if count.refused > 0 => "refused".to_owned(),
+        None => NONE.to_owned(),
+        Some(rate) if count.refused > 0 => format!("{}*", share(rate)),
+        Some(rate) => share(rate),
+    }
 }

@@ -188,8 +188,9 @@ fn listen(viewer: &mut Viewer, mut patience: Duration) -> std::io::Result<bool> 
     Ok(true)
 }
 
-/// A key as the table has it.
-fn press(code: KeyCode) -> Option<Press> {
+/// A key as the table of [`super::command`] has it.
+#[must_use]
+pub fn press(code: KeyCode) -> Option<Press> {
     Some(match code {
         KeyCode::Left => Press::Left,
         KeyCode::Right => Press::Right,

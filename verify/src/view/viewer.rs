@@ -77,7 +77,7 @@ struct Tracers {
 }
 
 #[derive(Default)]
-struct Kept(Option<(Plan, &'static str, usize, Session)>);
+struct Kept(Option<Session>);
 
 impl Kept {
     fn render(
@@ -87,15 +87,13 @@ impl Kept {
         scene: &Scene,
         camera: &Camera,
     ) -> Result<&Rendering, RenderError> {
-        let same = |kept: &&mut (Plan, &'static str, usize, Session)| {
-            (kept.0, kept.1, kept.2) == (plan, level.name(), workers)
+        let same = |kept: &&Session| {
+            (kept.plan(), kept.level().name(), kept.workers()) == (plan, level.name(), workers)
         };
-        if self.0.as_mut().filter(same).is_none() {
-            let session = Tracer::new(plan, level).workers(workers).session()?;
-            self.0 = Some((plan, level.name(), workers, session));
+        if self.0.as_ref().filter(same).is_none() {
+            self.0 = Some(Tracer::new(plan, level).workers(workers).session()?);
         }
-        let (.., session) = self.0.as_mut().expect("it was just made");
-        session.render(scene, camera)
+        self.0.as_mut().expect("it was just made").render(scene, camera)
     }
 }
 
@@ -161,6 +159,11 @@ impl Viewer {
         }
     }
 
+    /// The wheel was turned by so many steps, away from who turns it: the scene comes nearer.
+    pub fn wheel(&mut self, steps: f64) {
+        _ = self.orbit.go(Move::Zoom(steps.clamp(-8.0, 8.0)));
+    }
+
     /// Whether a column is so near to the line of the wipe that a drag moves it.
     #[must_use]
     pub fn on_line(&self, x: f64) -> bool {
@@ -184,6 +187,15 @@ impl Viewer {
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.animation.frames()[self.player.frame()]
+    }
+
+    /// Who traced what was drawn last: of the wipe the exact plan's and the paper's, else the plan's.
+    #[must_use]
+    pub fn sessions(&self) -> Vec<&Session> {
+        let Tracers { shown, paper, exact } = &self.tracers;
+        let wiped = self.shown.as_ref().is_some_and(|shown| shown.column.is_some());
+        let traced = if wiped { vec![exact, paper] } else { vec![shown] };
+        traced.into_iter().filter_map(|kept| kept.0.as_ref()).collect()
     }
 
     /// Where the time of the last frame went.

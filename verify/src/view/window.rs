@@ -160,8 +160,7 @@ struct Mouse {
 impl Mouse {
     fn moved(&mut self, window: &Window, viewer: &mut Viewer) {
         if let Some((_, wheel)) = window.get_scroll_wheel() {
-            let steps = f64::from(wheel).clamp(-8.0, 8.0);
-            _ = viewer.orbit.go(super::orbit::Move::Zoom(steps));
+            viewer.wheel(f64::from(wheel));
         }
         let [left, right] =
             [MouseButton::Left, MouseButton::Right].map(|button| window.get_mouse_down(button));
@@ -181,8 +180,9 @@ impl Mouse {
     }
 }
 
-/// A key as the table has it.
-fn press(key: Key) -> Option<Press> {
+/// A key as the table of [`super::command`] has it.
+#[must_use]
+pub fn press(key: Key) -> Option<Press> {
     Some(match key {
         Key::Left => Press::Left,
         Key::Right => Press::Right,

@@ -22,9 +22,9 @@ use crate::prove::theorem::{Ask, Expected, Lemma, Statement, Theorem, Wrong};
 use optimized::grid::Axis;
 use optimized::machine::{Machine, Site, Stage};
 
-/// An axis of any origin and scale, of sixteen cells.
+/// An axis of any origin, scale and number of cells.
 fn any_axis<M: Machine>(ask: &mut impl Ask<M>) -> Axis {
-    Axis { n: 16, origin: ask.plain("origin"), inverse: ask.plain("inverse"), planes: Vec::new() }
+    Axis { n: ask.count("n"), origin: ask.plain("origin"), inverse: ask.plain("inverse"), planes: Vec::new() }
 }
 
 /// Sixteen cells of size 1, from −8.
@@ -249,7 +249,7 @@ pub fn lemmas() -> Vec<Lemma> {
         harmless: &[],
         statement,
     };
-    let order: &[(&str, u32)] = &[("x", ONE), ("y", TWO), ("origin", HALF), ("inverse", TWO)];
+    let order: &[(&str, u32)] = &[("x", ONE), ("y", TWO), ("origin", HALF), ("inverse", TWO), ("n", 16)];
     vec![
         lemma(
             "cell.monotone",

@@ -232,8 +232,14 @@ impl Claim {
     /// What stands beside it in the table: counted, not remembered.
     #[must_use]
     pub fn figure(&self) -> String {
-        let lemmas: Vec<Lemma> =
-            lemmas().into_iter().filter(|lemma| self.lemmas.contains(&lemma.name)).collect();
+        self.figure_of(self.lemmas)
+    }
+
+    /// The same of some of its lemmas: how many they are, and in how many ways an operation of their kernels can be done wrong, all of which are
+    /// tried where time is not short (`cgt prove --long`).
+    #[must_use]
+    pub fn figure_of(&self, names: &[&str]) -> String {
+        let lemmas: Vec<Lemma> = lemmas().into_iter().filter(|lemma| names.contains(&lemma.name)).collect();
         let mut kernels: Vec<(&str, usize)> = Vec::new();
         for lemma in lemmas.iter().filter(|lemma| lemma.expected == Expected::Holds) {
             if lemma.kernel != NONE && !kernels.iter().any(|(kernel, _)| *kernel == lemma.kernel) {
@@ -241,7 +247,12 @@ impl Claim {
             }
         }
         let faults: usize = kernels.iter().map(|(_, faults)| faults).sum();
-        format!("{} lemmas, {faults} faults under the prover; {}", lemmas.len(), self.beside)
+        let (lemmas, whose) = match lemmas.len() {
+            1 => ("1 lemma".into(), "its kernel"),
+            n => (format!("{n} lemmas"), "their kernels"),
+        };
+        let wrong = if faults == 0 { String::new() } else { format!(", {faults} ways to do {whose} wrong") };
+        format!("{lemmas}{wrong}; {}", self.beside)
     }
 }
 

@@ -12,12 +12,14 @@ use verify::paper::record::{Record, SCENES, SCHEMA_VERSION};
 use verify::paper::text::text;
 use verify::paper::{LEMMAS, Looked, claims, look, proofs, ticks};
 use verify::picture::{check_file, write_atomically};
-use verify::prove::prover::Finding;
+use verify::prove::prover::{Finding, Outcome};
 use verify::prove::solver::Solver;
 use verify::scenes::catalogue::{Source, SourceError};
 use verify::seed::seed;
 use verify::spu::survey::Input;
 
+/// A lemma is refuted, or a proof has something wrong.
+const WRONG: u8 = 1;
 /// No verdict on all of what was asked.
 const NO_VERDICT: u8 = 3;
 
@@ -25,7 +27,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     for file in [&args.json, &args.markdown].into_iter().flatten() {
         check_file(file)?;
     }
-    let (mut scenes, mut absent) = (Vec::new(), 0);
+    let (mut scenes, mut absent) = (Vec::new(), 0_usize);
     for word in names(args) {
         // Of the scenes of choice some may not have been fetched; one that is named must be there.
         if args.scenes.is_empty()
@@ -49,6 +51,24 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         say("not judged: proofs: no solver was found; tests/fetch-solvers brings two\n")?;
         absent += 1;
     }
+    let mut wrong = 0_usize;
+    for one in &said {
+        match &one.outcome {
+            Outcome::NotShown(why) => {
+                say(&format!("not judged: {}: {why}\n", one.name))?;
+                absent += 1;
+            }
+            Outcome::Refuted(_) => {
+                say(&format!("WRONG: {} is refuted\n", one.name))?;
+                wrong += 1;
+            }
+            Outcome::Proved | Outcome::NotJudged => {}
+        }
+        for why in &one.wrong {
+            say(&format!("WRONG: {}: {why}\n", one.name))?;
+            wrong += 1;
+        }
+    }
     let size =
         scenes.first().map_or([0; 2], |(_, _, camera)| [camera.size().width(), camera.size().height()]);
     let mut environment = environment(args.view.threads(), &[]);
@@ -69,7 +89,11 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if let Some(file) = &args.markdown {
         write_atomically(file, record.markdown().as_bytes())?;
     }
-    Ok(if absent == 0 { ExitCode::SUCCESS } else { ExitCode::from(NO_VERDICT) })
+    Ok(match (wrong, absent) {
+        (1.., _) => ExitCode::from(WRONG),
+        (0, 1..) => ExitCode::from(NO_VERDICT),
+        (0, 0) => ExitCode::SUCCESS,
+    })
 }
 
 /// What the solvers say of the lemmas that claims rest on.
