@@ -611,12 +611,14 @@ fn who_is_wrong_in_a_later_frame_is_not_timed() {
     assert!(!remark(2).contains("no longer"), "{}", remark(2));
 }
 
-/// Traces what it is given, but answers with what it had at the frame so many before: its first, if there were fewer.
+/// Traces what it is given, but answers with what it had at the frame so many before, its first if there were fewer; of ids perhaps with those
+/// of now.
 struct Late {
     kind: Kind,
     oath: Oath,
     frames: Vec<Image>,
     late: usize,
+    ids_of_now: bool,
 }
 
 impl Contestant for Late {
@@ -638,7 +640,10 @@ impl Contestant for Late {
 
     fn frame(&mut self, scene: &Scene, camera: &Camera) -> Result<Frame<'_>, SubjectError> {
         self.frames.push(exact(scene, camera));
-        let Image { ids, t, .. } = &self.frames[(self.frames.len() - 1).saturating_sub(self.late)];
+        let now = self.frames.len() - 1;
+        let then = now.saturating_sub(self.late);
+        let Image { ids, .. } = &self.frames[if self.ids_of_now { now } else { then }];
+        let Image { t, .. } = &self.frames[then];
         Ok(Frame { build: Duration::ZERO, took: None, layers: Layers { ids, t, rgba: None } })
     }
 }
@@ -648,14 +653,15 @@ impl Contestant for Late {
 fn who_answers_with_an_earlier_frame_is_wrong_and_not_timed() {
     let picture = Picture::new();
     let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
-    let table = |scene: &Scene, camera: &Camera, kind| {
-        let (oath, frames) = (Oath::rounded(Rounding::TextbookF32), vec![exact(scene, camera)]);
-        Box::new(Late { kind, oath, frames, late: usize::MAX }) as Box<dyn Contestant>
+    let late = |kind, late, ids_of_now| {
+        let (oath, frames) = (Oath::rounded(Rounding::TextbookF32), Vec::new());
+        Box::new(Late { kind, oath, frames, late, ids_of_now }) as Box<dyn Contestant>
     };
     let entrants = vec![
-        table(&picture.scene, &picture.camera, Kind::Peer),
-        table(&picture.scene, &picture.camera, Kind::Embree),
-        Box::new(Late { kind: Kind::Naive, oath: Oath::Exact, frames: Vec::new(), late: 0 }),
+        late(Kind::Peer, usize::MAX, false),
+        late(Kind::Embree, usize::MAX, false),
+        late(Kind::Peer, usize::MAX, true),
+        late(Kind::Naive, 0, false),
         Box::new(Scripted::of(&picture)),
         // Told of one frame only.
         Box::new(Scripted { kind: Kind::Limit, moved: picture.truth.clone(), ..Scripted::of(&picture) }),
@@ -667,12 +673,13 @@ fn who_answers_with_an_earlier_frame_is_wrong_and_not_timed() {
         [
             (Kind::Peer, Verdict::Wrong, false),
             (Kind::Embree, Verdict::Wrong, false),
+            (Kind::Peer, Verdict::Wrong, false),
             (Kind::Naive, Verdict::Equal, true),
             (Kind::Naive, Verdict::Equal, true),
             (Kind::Limit, Verdict::Equal, true),
         ]
     );
-    for row in &rows[..2] {
+    for row in &rows[..3] {
         // Of the pixels of its two turns hardly one is what it should be.
         let remark = row.remark.as_deref().unwrap_or_default();
         let off = remark.strip_prefix("In frames that were timed ").and_then(|rest| rest.split_once(" of "));

@@ -548,6 +548,7 @@ fn page_says_all_it_was_told() -> Outcome {
             }
         }
     }
+    assert!(page.contains("Nothing in this table was computed for this page."));
     for claim in &report.claims {
         for told in [&claim.statement, &claim.figure, &claim.how] {
             assert!(page.contains(&escaped(told)), "{told}");
