@@ -441,14 +441,18 @@ fn only_others_may_lose_a_pixel_in_ten_thousand() {
 
 // ---- the clock, with contestants whose times are made up ----
 
-/// Shows a picture of a scene, the first times as it is and later with one pixel changed, of other scenes the exact one, does something at
-/// each frame, and says what time it took.
+/// Shows a picture of a scene, the first times as it is and later with one pixel changed, of other scenes the exact one, or what it keeps of
+/// the first, or with one pixel of so many wrong; does something at each frame, and says what time it took.
 struct Scripted {
     kind: Kind,
     oath: Oath,
     scene: Scene,
     image: Image,
     moved: Image,
+    /// Whether ids and t are those of the first scene, whatever is asked.
+    keeps: [bool; 2],
+    /// One pixel in so many is wrong in other scenes than the first.
+    off: usize,
     frames: usize,
     sound: usize,
     build: Duration,
@@ -462,7 +466,8 @@ impl Scripted {
         let (kind, oath, scene) = (Kind::Naive, Oath::Exact, scene.clone());
         let (frames, sound, at_each) = (0, usize::MAX, Box::new(|_: &Scene| ()));
         let [image, moved] = [image, image].map(Clone::clone);
-        Self { kind, oath, scene, image, moved, frames, sound, build, took, at_each }
+        let (keeps, off) = ([false; 2], usize::MAX);
+        Self { kind, oath, scene, image, moved, keeps, off, frames, sound, build, took, at_each }
     }
 
     fn of(picture: &Picture) -> Self {
@@ -493,12 +498,18 @@ impl Contestant for Scripted {
         }
         self.frames += 1;
         (self.at_each)(scene);
-        let Image { ids, t, rgba, .. } = if *scene == self.scene {
+        let now = if *scene == self.scene {
             &self.image
         } else {
             self.moved = exact(scene, camera);
+            for id in self.moved.ids.iter_mut().skip(self.off - 1).step_by(self.off) {
+                *id = if *id == MISS { 0 } else { MISS };
+            }
             &self.moved
         };
+        let [Image { ids, .. }, Image { t, .. }] =
+            self.keeps.map(|kept| if kept { &self.image } else { now });
+        let rgba = &now.rgba;
         // Colours are painted by who promises them.
         let rgba = matches!(self.oath, Oath::Exact).then_some(rgba.as_slice());
         Ok(Frame { build: self.build, took: Some(self.took), layers: Layers { ids, t, rgba } })
@@ -611,60 +622,23 @@ fn who_is_wrong_in_a_later_frame_is_not_timed() {
     assert!(!remark(2).contains("no longer"), "{}", remark(2));
 }
 
-/// Traces what it is given, but answers with what it had at the frame so many before, its first if there were fewer; of ids perhaps with those
-/// of now.
-struct Late {
-    kind: Kind,
-    oath: Oath,
-    frames: Vec<Image>,
-    late: usize,
-    ids_of_now: bool,
-}
-
-impl Contestant for Late {
-    fn name(&self) -> &str {
-        "late"
-    }
-
-    fn description(&self) -> String {
-        "made up".into()
-    }
-
-    fn kind(&self) -> Kind {
-        self.kind
-    }
-
-    fn oath(&self) -> Oath {
-        self.oath
-    }
-
-    fn frame(&mut self, scene: &Scene, camera: &Camera) -> Result<Frame<'_>, SubjectError> {
-        self.frames.push(exact(scene, camera));
-        let now = self.frames.len() - 1;
-        let then = now.saturating_sub(self.late);
-        let Image { ids, .. } = &self.frames[if self.ids_of_now { now } else { then }];
-        let Image { t, .. } = &self.frames[then];
-        Ok(Frame { build: Duration::ZERO, took: None, layers: Layers { ids, t, rgba: None } })
-    }
-}
-
 /// It passes before the rounds and after them, with what it has kept.
 #[test]
 fn who_answers_with_an_earlier_frame_is_wrong_and_not_timed() {
     let picture = Picture::new();
     let input = Input { name: "made up", frame: 0, scene: &picture.scene, camera: &picture.camera };
-    let late = |kind, late, ids_of_now| {
-        let (oath, frames) = (Oath::rounded(Rounding::TextbookF32), Vec::new());
-        Box::new(Late { kind, oath, frames, late, ids_of_now }) as Box<dyn Contestant>
+    let within = Oath::rounded(Rounding::TextbookF32);
+    let keeping = |kind, oath, keeps| {
+        Box::new(Scripted { kind, oath, keeps, ..Scripted::of(&picture) }) as Box<dyn Contestant>
     };
     let entrants = vec![
-        late(Kind::Peer, usize::MAX, false),
-        late(Kind::Embree, usize::MAX, false),
-        late(Kind::Peer, usize::MAX, true),
-        late(Kind::Naive, 0, false),
-        Box::new(Scripted::of(&picture)),
+        keeping(Kind::Peer, within, [true; 2]),
+        keeping(Kind::Embree, within, [true; 2]),
+        keeping(Kind::Peer, within, [false, true]),
+        keeping(Kind::Naive, within, [false; 2]),
+        keeping(Kind::Naive, Oath::Exact, [false; 2]),
         // Told of one frame only.
-        Box::new(Scripted { kind: Kind::Limit, moved: picture.truth.clone(), ..Scripted::of(&picture) }),
+        keeping(Kind::Limit, Oath::Exact, [true; 2]),
     ];
     let (rows, _) = race(entrants, &input, &picture.truth, TWICE, 1, &silent).expect("nobody gives up");
     let told: Vec<_> = rows.iter().map(|row| (row.kind, row.verdict, row.timing.is_some())).collect();
@@ -686,6 +660,33 @@ fn who_answers_with_an_earlier_frame_is_wrong_and_not_timed() {
         let (off, rest) = off.unwrap_or_else(|| panic!("{remark}"));
         assert!(rest.starts_with("128 pixels") && off.parse::<u64>().is_ok_and(|off| off >= 120), "{remark}");
         assert!(remark.ends_with("Not timed."), "{remark}");
+    }
+}
+
+/// A picture of few pixels may be right by chance, and one of more may: who rounds may be off in the next, and only who promised the truth
+/// may not.
+#[test]
+fn who_rounds_is_not_held_to_a_picture_of_few_pixels() {
+    let picture = Picture::new();
+    let one = Scene::new(picture.scene.spheres()[..1].to_vec(), [0; 3], DEFAULT_LIGHT).expect("valid");
+    let truth = exact(&one, &picture.camera);
+    let [few, many] =
+        [&truth, &picture.truth].map(|image| image.ids.iter().filter(|&&id| id != MISS).count());
+    assert!((1..64).contains(&few) && many > 64, "{few} and {many} pixels show a sphere");
+    let within = Oath::rounded(Rounding::TextbookF32);
+    for (scene, truth, oath, off, timed) in [
+        (&one, &truth, within, 1, true),
+        (&one, &truth, Oath::Exact, 1, false),
+        (&picture.scene, &picture.truth, within, 5, true),
+        (&picture.scene, &picture.truth, within, 1, false),
+        (&picture.scene, &picture.truth, Oath::Exact, 2, false),
+    ] {
+        let input = Input { name: "made up", frame: 0, scene, camera: &picture.camera };
+        let scripted = Box::new(Scripted { oath, off, ..Scripted::new(scene, truth) });
+        let (rows, _) = race(vec![scripted], &input, truth, TWICE, 1, &silent).expect("nobody gives up");
+        let exact = matches!(oath, Oath::Exact);
+        assert_eq!(rows[0].timing.is_some(), timed, "exact: {exact}, one pixel in {off}: {:?}", rows[0]);
+        assert_eq!(rows[0].verdict, if timed { Verdict::Equal } else { Verdict::Wrong });
     }
 }
 

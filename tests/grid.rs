@@ -724,7 +724,7 @@ const LITTLE_MEMORY: &str = "CGT_LITTLE_MEMORY";
 #[test]
 fn more_ids_are_asked_for_than_fit() {
     if std::env::var_os(LITTLE_MEMORY).is_some() {
-        let (scene, camera) = (crowd(3_000), square([0.5, 0.5, 60.0]));
+        let (scene, camera) = (crowd(1_000), square([0.5, 0.5, 60.0]));
         let plan = Plan { resolution: Resolution::Fixed(64), ..Plan::safe() };
         let tracer = Tracer::new(plan, Level::best().expect("a level"));
         let image = tracer.render(&scene, &camera).expect("a coarser grid").image;
@@ -734,11 +734,11 @@ fn more_ids_are_asked_for_than_fit() {
     }
 }
 
-/// A grid that memory cannot hold is made coarser: 64 cells on an axis would list 3 GB of ids, 32 an eighth of it. A plan that refuses is told.
+/// A grid that memory cannot hold is made coarser: 64 cells on an axis would list 1 GB of ids, 32 an eighth of it. A plan that refuses is told.
 #[test]
 #[cfg(target_os = "linux")]
 fn ids_that_do_not_fit_make_a_grid_coarser() {
-    let script = "ulimit -v 2097152 && exec \"$0\" --exact more_ids_are_asked_for_than_fit --nocapture";
+    let script = "ulimit -v 786432 && exec \"$0\" --exact more_ids_are_asked_for_than_fit --nocapture";
     let mut child = std::process::Command::new("sh");
     child.args(["-c", script]).arg(std::env::current_exe().expect("this program")).env(LITTLE_MEMORY, "1");
     let output = child.output().expect("a shell");

@@ -138,17 +138,15 @@ impl<M: Machine> Trial<M> {
 impl Whole {
     /// |centre|² − r²: above 0 if the eye is outside.
     pub(crate) fn power(&self) -> i128 {
-        let square = |x: i64| i128::from(x) * i128::from(x);
         self.center.iter().map(|&c| square(c)).sum::<i128>() - square(self.radius)
     }
 
     /// a r² − |c × d|², above or at 0 if the line through the eye hits.
     fn discriminant(&self, direction: [i64; 3]) -> i128 {
-        let [c, d] = [self.center, direction].map(|v| v.map(i128::from));
-        let cross = |i: usize, j: usize| c[i] * d[j] - c[j] * d[i];
-        let a: i128 = d.iter().map(|x| x * x).sum();
-        let radius = i128::from(self.radius);
-        a * radius * radius - [cross(0, 1), cross(1, 2), cross(2, 0)].iter().map(|x| x * x).sum::<i128>()
+        let (c, d) = (self.center, direction);
+        let cross = |i: usize, j: usize| square(c[i] * d[j] - c[j] * d[i]);
+        let a: i64 = d.iter().map(|x| x * x).sum();
+        i128::from(a) * i128::from(self.radius * self.radius) - (cross(0, 1) + cross(1, 2) + cross(2, 0))
     }
 
     /// Whether the ray, which begins at the eye, has a point in the closed ball.
@@ -160,7 +158,7 @@ impl Whole {
     #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "about")]
     pub(crate) fn reached(&self, direction: [i64; 3]) -> i64 {
         let point = Self { radius: 0, ..*self };
-        let a: i128 = direction.iter().map(|&x| i128::from(x) * i128::from(x)).sum();
+        let a: i128 = direction.iter().map(|&x| square(x)).sum();
         let square = if self.along(direction) > 0 {
             -point.discriminant(direction) as f64 / a as f64
         } else {
@@ -179,7 +177,7 @@ impl Whole {
     fn root(&self, direction: [i64; 3]) -> Option<f64> {
         let discriminant = self.discriminant(direction);
         let along = self.along(direction);
-        let a: i128 = direction.iter().map(|&x| i128::from(x) * i128::from(x)).sum();
+        let a: i128 = direction.iter().map(|&x| square(x)).sum();
         if discriminant < 0 || (self.power() >= 0 && along <= 0) {
             return None;
         }
@@ -187,6 +185,11 @@ impl Whole {
         let sum = if self.power() > 0 { along as f64 - half } else { along as f64 + half };
         Some(sum / a as f64 * direction[0] as f64)
     }
+}
+
+/// Of a number below 2⁶³, of which no product of two can be too large; what can is noticed.
+fn square(x: i64) -> i128 {
+    i128::from(x) * i128::from(x)
 }
 
 /// Whether a root lies in an interval, but for the rounding of its own computation.

@@ -45,10 +45,11 @@ impl Small {
     pub fn round(self, x: f64) -> f32 {
         let drop = 53 - self.bits;
         let half = match self.mode {
-            Mode::Nearest => (1u64 << (drop - 1)) - 1 + (x.to_bits() >> drop & 1),
+            Mode::Nearest => ((1u64 << (drop - 1)) - 1).wrapping_add(x.to_bits() >> drop & 1),
             Mode::Truncating => 0,
         };
-        f64::from_bits((x.to_bits() + half) >> drop << drop) as f32
+        // Of no number is a sum too large; without a check of it lanes are done side by side.
+        f64::from_bits(x.to_bits().wrapping_add(half) >> drop << drop) as f32
     }
 
     fn each(self, mut x: [f32; LANES], y: [f32; LANES], op: impl Fn(f64, f64) -> f64) -> [f32; LANES] {
@@ -66,7 +67,7 @@ impl Machine for Small {
     type Spu = optimized::host::Spu;
 
     fn spu(self) -> Self::Spu {
-        optimized::host::Spu
+        optimized::host::Spu::default()
     }
     #[allow(clippy::cast_possible_truncation, reason = "a power of two")]
     fn unit(self) -> f32 {

@@ -16,7 +16,7 @@ impl Machine for Scalar {
 
     #[inline(always)]
     fn spu(self) -> Spu {
-        Spu
+        Spu::default()
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! The arithmetic of the SPU (contract, rule 6) on any host: its numbers as bits, its operations by way of f64.
 //!
-//! An f64 holds every number of the SPU and every product of two. A sum is rounded to f64 and its error found exactly (Knuth's
+//! Where f32 has all operands and the result of sixteen lanes, conversions between f32 and f64, which any host has for several lanes at
+//! once, do what must else be done bit by bit. An f64 holds every number of the SPU and every product of two. A sum is rounded to f64 and its error found exactly (Knuth's
 //! two-sum); where the error points towards zero, the f64 below is taken. It has 29 more bits than are kept, so that cutting these off
 //! cuts off the real sum: between the f64 and the real sum there is no number of 24 bits but possibly the f64 itself.
 //!
@@ -9,10 +10,30 @@
 
 use crate::machine::{LANES, Machine, Site};
 use contract::spu::{FREST, FRSQEST};
+use fearless_simd::Level;
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::Simd;
 
-/// Sixteen lanes of SPU numbers, as patterns.
+/// Sixteen lanes of SPU numbers, as patterns; by default in the instructions that every processor of this kind has.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Spu;
+pub struct Spu(Option<Level>);
+
+impl Spu {
+    /// In the instructions of a level, where that makes a difference.
+    #[inline(always)]
+    pub(super) fn at(level: Level) -> Self {
+        Self(Some(level))
+    }
+
+    #[inline(always)]
+    fn door<R>(self, f: impl FnOnce() -> R) -> R {
+        match self.0 {
+            #[cfg(target_arch = "x86_64")]
+            Some(Level::Avx2(simd)) => simd.vectorize(f),
+            _ => f(),
+        }
+    }
+}
 
 /// The largest number.
 const LARGEST: u32 = 0x7fff_ffff;
@@ -46,41 +67,125 @@ fn cut(x: f64) -> u32 {
     }
 }
 
-/// The pattern of a sum of two numbers that f64 holds.
+/// A sum of two numbers, which cut off is the real sum cut off.
 #[inline(always)]
-fn cut_sum(x: f64, y: f64) -> u32 {
+fn sum(x: f64, y: f64) -> f64 {
     let sum = x + y;
     let part = sum - x;
     let error = (x - (sum - part)) + (y - part);
     let below = f64::from_bits(sum.to_bits().wrapping_sub(1));
-    cut(if error != 0.0 && (error < 0.0) != (sum < 0.0) { below } else { sum })
+    if error != 0.0 && (error < 0.0) != (sum < 0.0) { below } else { sum }
 }
 
 #[inline(always)]
 pub(super) fn add(x: u32, y: u32) -> u32 {
-    cut_sum(number(x), number(y))
+    cut(sum(number(x), number(y)))
 }
 
 #[inline(always)]
 pub(super) fn sub(x: u32, y: u32) -> u32 {
-    cut_sum(number(x), -number(y))
+    cut(sum(number(x), -number(y)))
 }
 
 /// x y + z.
 #[inline(always)]
 pub(super) fn fma(x: u32, y: u32, z: u32) -> u32 {
-    cut_sum(number(x) * number(y), number(z))
+    cut(sum(number(x) * number(y), number(z)))
 }
 
 /// z − x y.
 #[inline(always)]
 pub(super) fn fnms(x: u32, y: u32, z: u32) -> u32 {
-    cut_sum(number(z), -(number(x) * number(y)))
+    cut(sum(number(z), -(number(x) * number(y))))
 }
 
 #[inline(always)]
 pub(super) fn mul(x: u32, y: u32) -> u32 {
     cut(number(x) * number(y))
+}
+
+const EXPONENT: u32 = 0x7f80_0000;
+
+/// Zero for what is read as zero.
+#[inline(always)]
+fn read(x: u32) -> u32 {
+    if x & EXPONENT == 0 { 0 } else { x }
+}
+
+/// The number that a pattern is, as an integer in the same order.
+#[inline(always)]
+fn rank(x: u32) -> i32 {
+    let x = read(x);
+    let magnitude = (x & !SIGN).cast_signed();
+    if x & SIGN == 0 { magnitude } else { -magnitude }
+}
+
+/// An operation of f64 cut off, or `again` on all lanes if f32 has not every operand and result. What f32 has not is an infinity or no number
+/// there, and what comes of it is one too.
+#[inline(always)]
+fn by_f32(
+    [x, y, z]: [[u32; LANES]; 3],
+    operation: impl Fn(f64, f64, f64) -> f64,
+    again: impl Fn(u32, u32, u32) -> u32,
+) -> [u32; LANES] {
+    let (mut out, mut beyond) = ([0; LANES], false);
+    for i in 0..LANES {
+        let [x, y, z] = [x[i], y[i], z[i]].map(
+            #[inline(always)]
+            |x| f64::from(f32::from_bits(read(x))),
+        );
+        let cut = f64::from_bits(operation(x, y, z).to_bits() & !0x1fff_ffff);
+        let kept = if cut.abs() < f64::from(f32::MIN_POSITIVE) { 0.0 } else { cut };
+        #[allow(clippy::cast_possible_truncation, reason = "of 24 bits")]
+        let kept = (kept as f32).to_bits();
+        beyond |= kept & EXPONENT == EXPONENT;
+        out[i] = kept;
+    }
+    if beyond { by_bits([x, y, z], again) } else { out }
+}
+
+#[cold]
+#[inline(never)]
+fn by_bits([x, y, z]: [[u32; LANES]; 3], again: impl Fn(u32, u32, u32) -> u32) -> [u32; LANES] {
+    let mut out = [0; LANES];
+    for i in 0..LANES {
+        out[i] = again(x[i], y[i], z[i]);
+    }
+    out
+}
+
+/// x y on all lanes.
+#[inline(always)]
+fn mul_each(x: [u32; LANES], y: [u32; LANES]) -> [u32; LANES] {
+    by_f32(
+        [x, y, y],
+        #[inline(always)]
+        |x, y, _| x * y,
+        #[inline(always)]
+        |x, y, _| mul(x, y),
+    )
+}
+
+/// x y + z on all lanes.
+#[inline(always)]
+fn fma_each(x: [u32; LANES], y: [u32; LANES], z: [u32; LANES]) -> [u32; LANES] {
+    by_f32(
+        [x, y, z],
+        #[inline(always)]
+        |x, y, z| sum(x * y, z),
+        fma,
+    )
+}
+
+/// z − x y on all lanes.
+#[inline(always)]
+fn fnms_each(x: [u32; LANES], y: [u32; LANES], z: [u32; LANES]) -> [u32; LANES] {
+    by_f32(
+        [x, y, z],
+        #[inline(always)]
+        |x, y, z| sum(z, -(x * y)),
+        fnms,
+    )
 }
 
 /// Rule 6's `frest`.
@@ -109,20 +214,6 @@ fn fi(x: u32, y: u32) -> u32 {
     let (base, step) = (1 << 13 | y >> 10 & 0x1fff, y & 0x3ff);
     let fall = (step * (x & 0x7_ffff)).div_ceil(1 << 9);
     y & 0xff80_0000 | ((base << 10) - fall) & 0x7f_ffff
-}
-
-#[inline(always)]
-fn div(x: u32, y: u32) -> u32 {
-    let w = fi(y, frest(y));
-    let q = mul(x, w);
-    fma(fnms(q, y, x), w, q)
-}
-
-#[inline(always)]
-fn sqrt(x: u32) -> u32 {
-    let w = fi(x, frsqest(x));
-    let g = mul(x, w);
-    fma(fnms(g, g, x), mul(w, 0.5f32.to_bits()), g)
 }
 
 /// What one operation does, on all lanes. A loop and no `from_fn`: that may stay a call.
@@ -213,28 +304,73 @@ impl Machine for Spu {
     }
     #[inline(never)]
     fn add(self, x: Self::F, y: Self::F) -> Self::F {
-        each(x, y, 0, add)
+        self.door(
+            #[inline(always)]
+            || {
+                by_f32(
+                    [x, y, y],
+                    #[inline(always)]
+                    |x, y, _| sum(x, y),
+                    #[inline(always)]
+                    |x, y, _| add(x, y),
+                )
+            },
+        )
     }
     #[inline(never)]
     fn sub(self, x: Self::F, y: Self::F) -> Self::F {
-        each(x, y, 0, sub)
+        self.door(
+            #[inline(always)]
+            || {
+                by_f32(
+                    [x, y, y],
+                    #[inline(always)]
+                    |x, y, _| sum(x, -y),
+                    #[inline(always)]
+                    |x, y, _| sub(x, y),
+                )
+            },
+        )
     }
     #[inline(never)]
     fn mul(self, x: Self::F, y: Self::F) -> Self::F {
-        each(x, y, 0, mul)
+        self.door(
+            #[inline(always)]
+            || mul_each(x, y),
+        )
     }
     #[inline(never)]
     fn div(self, x: Self::F, y: Self::F) -> Self::F {
-        each(x, y, 0, div)
+        self.door(
+            #[inline(always)]
+            || {
+                let w = each(
+                    y,
+                    y,
+                    0,
+                    #[inline(always)]
+                    |y, _| fi(y, frest(y)),
+                );
+                let q = mul_each(x, w);
+                fma_each(fnms_each(q, y, x), w, q)
+            },
+        )
     }
     #[inline(never)]
     fn sqrt(self, x: Self::F) -> Self::F {
-        each(
-            x,
-            x,
-            0,
+        self.door(
             #[inline(always)]
-            |x, _| sqrt(x),
+            || {
+                let w = each(
+                    x,
+                    x,
+                    0,
+                    #[inline(always)]
+                    |x, _| fi(x, frsqest(x)),
+                );
+                let g = mul_each(x, w);
+                fma_each(fnms_each(g, g, x), mul_each(w, [0.5f32.to_bits(); LANES]), g)
+            },
         )
     }
     #[inline(always)]
@@ -254,7 +390,7 @@ impl Machine for Spu {
             y,
             false,
             #[inline(always)]
-            |x, y| number(x) < number(y),
+            |x, y| rank(x) < rank(y),
         )
     }
     #[inline(never)]
@@ -264,7 +400,7 @@ impl Machine for Spu {
             y,
             false,
             #[inline(always)]
-            |x, y| number(x) <= number(y),
+            |x, y| rank(x) <= rank(y),
         )
     }
     #[inline(always)]
@@ -369,7 +505,7 @@ impl Machine for Spu {
     fn smallest(self, x: Self::F) -> Self::F {
         let mut least = x[0];
         for x in x {
-            least = if number(x) < number(least) { x } else { least };
+            least = if rank(x) < rank(least) { x } else { least };
         }
         [least; LANES]
     }
@@ -377,7 +513,7 @@ impl Machine for Spu {
     fn largest(self, x: Self::F) -> Self::F {
         let mut most = x[0];
         for x in x {
-            most = if number(x) > number(most) { x } else { most };
+            most = if rank(x) > rank(most) { x } else { most };
         }
         [most; LANES]
     }

@@ -312,19 +312,19 @@ impl Machine for Truncating {
     }
     #[inline(always)]
     fn floor(self, x: Self::F) -> Self::I {
-        self.lanes_i(Spu.floor(array(x)))
+        self.lanes_i(Spu::default().floor(array(x)))
     }
     #[inline(always)]
     fn truncate(self, x: Self::F) -> Self::I {
-        self.lanes_i(Spu.truncate(array(x)))
+        self.lanes_i(Spu::default().truncate(array(x)))
     }
     #[inline(always)]
     fn smallest(self, x: Self::F) -> Self::F {
-        vector(Spu.smallest(array(x)))
+        vector(Spu::default().smallest(array(x)))
     }
     #[inline(always)]
     fn largest(self, x: Self::F) -> Self::F {
-        vector(Spu.largest(array(x)))
+        vector(Spu::default().largest(array(x)))
     }
     #[inline(always)]
     fn any(self, x: Self::B, _: Site) -> bool {

@@ -47,7 +47,7 @@ macro_rules! emulated {
 
             #[inline(always)]
             fn spu(self) -> super::Spu {
-                super::Spu
+                super::Spu::at(self.level())
             }
         }
     )*};

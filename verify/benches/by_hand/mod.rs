@@ -46,7 +46,7 @@ impl Machine for Avx512 {
 
     #[inline(always)]
     fn spu(self) -> Self::Spu {
-        optimized::host::Spu
+        optimized::host::Spu::default()
     }
 
     #[inline(always)]
@@ -202,7 +202,7 @@ impl Machine for Avx2 {
 
     #[inline(always)]
     fn spu(self) -> Self::Spu {
-        optimized::host::Spu
+        optimized::host::Spu::default()
     }
 
     #[inline(always)]

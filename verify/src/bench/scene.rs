@@ -227,7 +227,7 @@ pub(super) fn checked(
         Err(error) => row.remark = Some(format!("Gave no picture: {error}. Not timed.")),
         Ok(frame) => {
             let checked = check(input.scene, input.camera, truth, frame.layers, oath);
-            standing = held(truth, frame.layers).ok().map(|comparison| Standing::from(&comparison));
+            standing = held(truth, frame.layers).ok().map(|comparison| Standing::new(oath, &comparison));
             row.verdict = checked.verdict();
             (row.differing, row.wrong, row.not_stated) =
                 (checked.differing, checked.wrong, checked.not_stated);

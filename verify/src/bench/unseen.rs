@@ -2,13 +2,14 @@
 //!
 //! For each frame all spheres move together, by one to four pixels to a side, up or down, and to or fro, drawn anew: the work stays what it
 //! was, and no answer does. Of the last frame of each turn a few pixels are drawn and held against the exact loop over all spheres when the
-//! clock has stopped. Whose picture was the exact one in every pixel must show what is exact there too. Who rounds may be off, as far as
+//! clock has stopped. Who promised the truth and gave it in every pixel must show it there too. Who rounds may be off, as far as
 //! it was there ([`Standing`]), and who loses spheres loses others in another frame; but whoever is nearer to having all of them wrong than to
-//! how it did there is not timed.
+//! how it did there is not timed. How far rounding goes is not known from a few pixels: where less than [`ENOUGH`] show a sphere, it is
+//! not held to that.
 //!
 //! The clairvoyant is told what one frame shows, so it is asked for that one, at the cost of being moved by nothing.
 
-use super::contestant::Layers;
+use super::contestant::{Layers, Oath};
 use crate::judge::compare::ulps_apart;
 use crate::seed::generator;
 use crate::verdict::Comparison;
@@ -24,19 +25,32 @@ const LEAST: usize = 4;
 const MOST: usize = 64;
 /// So many pixels may be off whatever their number.
 const FEW: f64 = 3.0;
+/// The most of so many errors is exceeded by half of all others once in 2⁶⁴.
+pub const ENOUGH: u64 = 64;
 
 /// How far a contestant is off in a picture that was looked at as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Standing {
+    /// Whether it promised the truth, and gave it.
+    pub exact: bool,
+    /// Pixels that show a sphere.
+    pub hits: u64,
     /// Of the pixels that show a sphere the part that should show another, or none.
     pub wrong: f64,
     /// The most that t of a right sphere is off, in steps of f32.
     pub ulps: u64,
 }
 
-impl From<&Comparison> for Standing {
-    fn from(c: &Comparison) -> Self {
-        Self { wrong: (c.missing + c.swapped) as f64 / c.hits.max(1) as f64, ulps: c.t_ulp.max }
+impl Standing {
+    /// Of who swore so, and was compared so.
+    #[must_use]
+    pub fn new(oath: Oath, c: &Comparison) -> Self {
+        Self {
+            exact: matches!(oath, Oath::Exact) && c.wrong_ids == 0 && c.wrong_t == 0,
+            hits: c.hits,
+            wrong: (c.missing + c.swapped) as f64 / c.hits.max(1) as f64,
+            ulps: c.t_ulp.max,
+        }
     }
 }
 
@@ -51,10 +65,12 @@ impl Drawn {
     /// Why a contestant of such a standing has not shown what it was timed for; none if it has.
     #[must_use]
     pub fn reproach(&self, standing: Standing) -> Option<String> {
+        if !standing.exact && standing.hits < ENOUGH {
+            return None;
+        }
         let pixels = self.apart.len();
         let off = self.apart.iter().filter(|apart| apart.is_none_or(|ulps| ulps > standing.ulps)).count();
-        let exact = standing == Standing { wrong: 0.0, ulps: 0 };
-        let part = if exact { 0.0 } else { f64::midpoint(standing.wrong, 1.0) };
+        let part = if standing.exact { 0.0 } else { f64::midpoint(standing.wrong, 1.0) };
         (off as f64 > FEW + part * pixels as f64).then(|| {
             format!("In frames that were timed {off} of {pixels} pixels drawn at random are not what its spheres show.")
         })

@@ -129,7 +129,7 @@ fn time(
         let point = &mut points[*place];
         let after = pictured(entrant.as_mut(), asked.scene, &at.camera, truth).map(|(after, _)| after).ok();
         if after == point.comparison {
-            let standing = after.as_ref().map(Standing::from);
+            let standing = after.as_ref().map(|after| Standing::new(entrant.oath(), after));
             point.remark = standing.and_then(|standing| taken.reproach(standing));
             match &point.remark {
                 None => point.ns_per_ray = taken.timing().map(|timing| timing.total.median * 1e9 / rays),

@@ -255,7 +255,7 @@ impl<const N: usize> Machine for Symbolic<'_, N> {
     type Spu = optimized::host::Spu;
 
     fn spu(self) -> Self::Spu {
-        optimized::host::Spu
+        optimized::host::Spu::default()
     }
     /// The first lanes are taken for all.
     fn lanes(self, x: [f32; LANES]) -> [Term; N] {

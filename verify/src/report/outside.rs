@@ -50,7 +50,7 @@ pub(super) fn rows(frames: &[&SceneReport]) -> Vec<Row> {
     each_once(all().map(asked)).into_iter().map(row).collect()
 }
 
-/// Hearings added up. Of a frame of which a witness stated nothing another one says nothing either, so the verdict is the worst of all.
+/// Hearings added up. What a witness left open in one frame no other frame makes good, so the verdict is the worst of all.
 fn summed<'a>(hearings: impl Iterator<Item = &'a Hearing> + Clone) -> (Verdict, Hearing) {
     let verdict = Verdict::worst_of(hearings.clone().map(Hearing::verdict));
     (verdict, hearings.fold(Hearing::default(), Hearing::and))

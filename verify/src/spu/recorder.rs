@@ -204,6 +204,9 @@ pub(super) struct Recorder {
     instructions: u64,
     /// The packet in which each sphere was last met.
     met: Vec<u64>,
+    /// When the results of each instruction of a sequence under way can be used, on quadwords and of chores.
+    results: Vec<Ready>,
+    side_by_side: Vec<[u64; BATCH]>,
 }
 
 impl Recorder {
@@ -249,31 +252,36 @@ impl Recorder {
     }
 
     #[inline]
-    pub(super) fn issue(&mut self, op: Op, ready: u64) -> u64 {
-        match op.class().pipe() {
-            Pipe::Even => self.open.even += 1,
-            Pipe::Odd => self.open.odd += 1,
-        }
-        self.instructions += 1;
-        self.pipeline.issue(op, ready)
+    fn book(&mut self, op: Op, times: usize) {
+        let of = match op.class().pipe() {
+            Pipe::Even => &mut self.open.even,
+            Pipe::Odd => &mut self.open.odd,
+        };
+        *of += times as u64;
+        self.instructions += times as u64;
     }
 
     /// A sequence on so many quadwords, each instruction on all of them before the next.
     pub(super) fn run(&mut self, sequence: Sequence, inputs: [&Ready; 3], quads: usize) -> Ready {
-        let mut results = [[0; QUADS]; super::sequence::LONGEST];
+        if self.results.len() < sequence.len() {
+            self.results.resize(sequence.len(), [0; QUADS]);
+        }
         for (step, (op, operands)) in sequence.iter().enumerate() {
+            let mut results = [0; QUADS];
             for quad in 0..quads {
                 let mut ready = 0;
                 for from in *operands {
                     ready = ready.max(match from {
                         Operand::In(i) => inputs[*i][quad],
-                        Operand::Step(i) => results[*i][quad],
+                        Operand::Step(i) => self.results[*i][quad],
                     });
                 }
-                results[step][quad] = self.issue(*op, ready);
+                results[quad] = self.pipeline.issue(*op, ready);
             }
+            self.results[step] = results;
+            self.book(*op, quads);
         }
-        let mut last = results[sequence.len() - 1];
+        let mut last = self.results[sequence.len() - 1];
         if quads == 1 {
             last = [last[0]; QUADS];
         }
@@ -311,19 +319,23 @@ impl Recorder {
     /// A sequence so many times side by side, from the last scalars; when all of it can be used.
     fn batch(&mut self, sequence: Sequence, times: usize) -> u64 {
         let (start, mut latest) = (self.scalar, 0);
-        let mut results = [[0; LONGEST_CHORE]; BATCH];
+        if self.side_by_side.len() < sequence.len() {
+            self.side_by_side.resize(sequence.len(), [0; BATCH]);
+        }
         for (step, (op, operands)) in sequence.iter().enumerate() {
-            for results in results.iter_mut().take(times) {
+            for one in 0..times {
                 let mut ready = 0;
                 for from in *operands {
                     ready = ready.max(match from {
                         Operand::In(_) => start,
-                        Operand::Step(i) => results[*i],
+                        Operand::Step(i) => self.side_by_side[*i][one],
                     });
                 }
-                results[step] = self.issue(*op, ready);
-                latest = latest.max(results[step]);
+                let result = self.pipeline.issue(*op, ready);
+                self.side_by_side[step][one] = result;
+                latest = latest.max(result);
             }
+            self.book(*op, times);
         }
         latest
     }
@@ -354,5 +366,3 @@ impl Recorder {
 
 /// Repetitions of a chore's sequence that are done side by side.
 const BATCH: usize = 8;
-/// The most instructions of one.
-const LONGEST_CHORE: usize = 40;

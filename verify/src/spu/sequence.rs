@@ -33,9 +33,6 @@ pub type Instruction = (Op, &'static [Operand]);
 /// Instructions in their order. The last one's result is that of the whole.
 pub type Sequence = &'static [Instruction];
 
-/// The most instructions of an operation's sequence.
-pub const LONGEST: usize = 16;
-
 const TWO: &[Operand] = &[In(0), In(1)];
 
 /// x + y.
