@@ -188,10 +188,10 @@ fn a_run_is_its_seed_and_a_liar_is_named() {
             Method::grid("in t", Family::Exact, |_| Plan::safe(), level, 1),
         ]
     };
-    let (one, again) = (run(&methods, 1024, 5, &[]), run(&methods, 1024, 5, &[]));
+    let (one, again) = (run(&methods, 512, 5, &[]), run(&methods, 512, 5, &[]));
     let lines = |found: &Stability| serde_json::to_string(&found.curves).expect("JSON");
     assert_eq!(lines(&one), lines(&again));
-    assert_ne!(lines(&one), lines(&run(&methods, 1024, 6, &[])));
+    assert_ne!(lines(&one), lines(&run(&methods, 512, 6, &[])));
     let broken = one.broken_promises();
     let of = |name: &str| broken.iter().filter(|line| line.contains(name)).count();
     assert!(of("liar") > 0 && of("in t") > 0 && of("rounded") == 0, "{broken:?}");

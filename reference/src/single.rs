@@ -31,8 +31,11 @@ pub(crate) fn textbook(ray: &Ray, sphere: &Sphere) -> Option<f32> {
     let b = dot(f, d);
     let q = dot(f, f) - r * r;
     let discriminant = b * b - a * q;
-    let s = discriminant.sqrt();
-    first_positive(discriminant, (-b - s) / a, (-b + s) / a)
+    if discriminant >= 0.0 {
+        let s = discriminant.sqrt();
+        return first_positive((-b - s) / a, (-b + s) / a);
+    }
+    None
 }
 
 /// r² − |f − (f·d / d·d) d|².
@@ -44,13 +47,16 @@ pub(crate) fn perpendicular(ray: &Ray, sphere: &Sphere) -> Option<f32> {
     let h = dot(f, d) * w;
     let l = [0, 1, 2].map(|i| f[i] - h * d[i]);
     let discriminant = r * r - dot(l, l);
-    let s = (discriminant * w).sqrt();
-    first_positive(discriminant, -h - s, -h + s)
+    if discriminant >= 0.0 {
+        let s = (discriminant * w).sqrt();
+        return first_positive(-h - s, -h + s);
+    }
+    None
 }
 
-fn first_positive(discriminant: f32, near: f32, far: f32) -> Option<f32> {
+fn first_positive(near: f32, far: f32) -> Option<f32> {
     let t = if near > 0.0 { near } else { far };
-    (discriminant >= 0.0 && t > 0.0).then_some(t)
+    (t > 0.0).then_some(t)
 }
 
 #[inline]

@@ -143,7 +143,7 @@ pub(crate) fn size(width: u32, height: u32) -> Size {
 }
 
 pub(crate) fn packed(bytes: &[u8]) -> Vec<u8> {
-    let mut out = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::new(6));
+    let mut out = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
     out.write_all(bytes).expect("to memory");
     out.finish().expect("to memory")
 }
