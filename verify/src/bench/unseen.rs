@@ -45,8 +45,9 @@ impl Standing {
     /// Of who swore so, and was compared so.
     #[must_use]
     pub fn new(oath: Oath, c: &Comparison) -> Self {
+        let exact = matches!(oath, Oath::Exact) && c.wrong_ids == 0 && c.wrong_t == 0;
         Self {
-            exact: matches!(oath, Oath::Exact) && c.wrong_ids == 0 && c.wrong_t == 0,
+            exact,
             hits: c.hits,
             wrong: (c.missing + c.swapped) as f64 / c.hits.max(1) as f64,
             ulps: c.t_ulp.max,
