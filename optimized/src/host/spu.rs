@@ -20,6 +20,7 @@ pub struct Spu(Option<Level>);
 
 impl Spu {
     /// In the instructions of a level, where that makes a difference.
+    #[allow(dead_code, reason = "WebAssembly without SIMD128 has no level")]
     #[inline(always)]
     pub(super) fn at(level: Level) -> Self {
         Self(Some(level))
