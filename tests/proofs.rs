@@ -47,18 +47,20 @@ fn lemmas_are_proved() {
     }
     let tried: usize = proofs.faults.iter().map(|faults| faults.tried).sum();
     assert_eq!(proofs.faults.len(), kernels(&lemmas()).len(), "kernels");
-    assert!(solvers.is_empty() || tried >= 6 * proofs.faults.len() - 5, "only {tried} faults were tried");
     // What no solver decides has not been noticed, whether an operation was done wrong or an assumption left out.
     let decided: usize = proofs.faults.iter().map(|faults| faults.noticed + faults.harmless).sum();
     let open: Vec<&String> = proofs.faults.iter().flat_map(|faults| &faults.open).collect();
     let left_out: usize = proofs.lemmas.iter().map(|lemma| lemma.left_out).sum();
     let needed: usize = proofs.lemmas.iter().map(|lemma| lemma.needed).sum();
     eprintln!("{decided} of {tried} faults decided, {needed} of {left_out} assumptions left out were needed");
-    // One solver alone knows not all that both know together.
+    assert!(10 * decided >= 9 * tried, "{decided} of {tried}: {open:#?}");
+    assert!(10 * needed >= 9 * left_out, "{needed} of {left_out} assumptions");
+    // One solver alone may know some kinds of numbers only, and is not asked about others.
     if solvers.len() > 1 {
-        assert!(10 * decided >= 9 * tried, "{decided} of {tried}: {open:#?}");
-        assert!(10 * needed >= 9 * left_out, "{needed} of {left_out} assumptions");
+        assert!(tried >= 6 * proofs.faults.len() - 5, "only {tried} faults were tried");
         assert!(left_out >= 50, "only {left_out} assumptions were left out");
+    } else if !solvers.is_empty() {
+        eprintln!("not judged: whether enough was tried: it takes two solvers");
     }
 }
 
