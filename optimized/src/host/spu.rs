@@ -1,9 +1,11 @@
 //! The arithmetic of the SPU (contract, rule 6) on any host: its numbers as bits, its operations by way of f64.
 //!
-//! Where f32 has all operands and the result of sixteen lanes, conversions between f32 and f64, which any host has for several lanes at
-//! once, do what must else be done bit by bit. An f64 holds every number of the SPU and every product of two. A sum is rounded to f64 and its error found exactly (Knuth's
+//! An f64 holds every number of the SPU and every product of two. A sum is rounded to f64 and its error found exactly (Knuth's
 //! two-sum); where the error points towards zero, the f64 below is taken. It has 29 more bits than are kept, so that cutting these off
 //! cuts off the real sum: between the f64 and the real sum there is no number of 24 bits but possibly the f64 itself.
+//!
+//! Where f32 has all operands and results of sixteen lanes, the host converts between f32 and f64, several lanes at once; else that is
+//! done bit by bit.
 //!
 //! These operations are calls, unlike those of the machines that are there for speed: inlined into every kernel of every level they
 //! make a program that takes a quarter of an hour to compile.
@@ -26,6 +28,7 @@ impl Spu {
         Self(Some(level))
     }
 
+    /// Does work in those instructions.
     #[inline(always)]
     fn door<R>(self, f: impl FnOnce() -> R) -> R {
         match self.0 {
@@ -39,6 +42,7 @@ impl Spu {
 /// The largest number.
 const LARGEST: u32 = 0x7fff_ffff;
 const SIGN: u32 = 1 << 31;
+const EXPONENT: u32 = 0x7f80_0000;
 
 /// Twice the step from a number of 24 bits to the next: quotients and roots are cut off, or one unit in the last place below.
 pub(super) const UNIT: f32 = 1.0 / (1u32 << 22) as f32;
@@ -85,7 +89,7 @@ pub(super) fn add(x: u32, y: u32) -> u32 {
 
 #[inline(always)]
 pub(super) fn sub(x: u32, y: u32) -> u32 {
-    cut(sum(number(x), -number(y)))
+    add(x, y ^ SIGN)
 }
 
 /// x y + z.
@@ -104,8 +108,6 @@ pub(super) fn fnms(x: u32, y: u32, z: u32) -> u32 {
 pub(super) fn mul(x: u32, y: u32) -> u32 {
     cut(number(x) * number(y))
 }
-
-const EXPONENT: u32 = 0x7f80_0000;
 
 /// Zero for what is read as zero.
 #[inline(always)]
@@ -318,20 +320,9 @@ impl Machine for Spu {
             },
         )
     }
-    #[inline(never)]
+    #[inline(always)]
     fn sub(self, x: Self::F, y: Self::F) -> Self::F {
-        self.door(
-            #[inline(always)]
-            || {
-                by_f32(
-                    [x, y, y],
-                    #[inline(always)]
-                    |x, y, _| sum(x, -y),
-                    #[inline(always)]
-                    |x, y, _| sub(x, y),
-                )
-            },
-        )
+        self.add(x, self.neg(y))
     }
     #[inline(never)]
     fn mul(self, x: Self::F, y: Self::F) -> Self::F {
