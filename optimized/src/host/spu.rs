@@ -87,11 +87,6 @@ pub(super) fn add(x: u32, y: u32) -> u32 {
     cut(sum(number(x), number(y)))
 }
 
-#[inline(always)]
-pub(super) fn sub(x: u32, y: u32) -> u32 {
-    add(x, y ^ SIGN)
-}
-
 /// x y + z.
 #[inline(always)]
 pub(super) fn fma(x: u32, y: u32, z: u32) -> u32 {

@@ -221,13 +221,7 @@ impl Machine for Truncating {
     }
     #[inline(always)]
     fn sub(self, x: Self::F, y: Self::F) -> Self::F {
-        mended(
-            [x, y, y],
-            // SAFETY: see `Truncating`.
-            #[inline(always)]
-            |[x, y, _]| unsafe { _mm512_sub_round_ps::<TOWARDS_ZERO>(x, y) },
-            |x, y, _| spu::sub(x, y),
-        )
+        self.add(x, self.neg(y))
     }
     #[inline(always)]
     fn mul(self, x: Self::F, y: Self::F) -> Self::F {
