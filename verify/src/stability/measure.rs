@@ -242,7 +242,7 @@ fn lines(methods: &[Method], values: &[f64], columns: &[Vec<Count>], easy: f64) 
 fn assumptions(asked: &Asked<'_>, tick: &(dyn Fn() + Sync)) -> Map {
     let level = asked.level;
     let paper = Method::grid("paper", Family::Paper, |_| Plan::paper(), level, 1);
-    let shots = (asked.rays / 4).div_ceil(u64::from(SIDE * SIDE));
+    let shots = asked.rays.div_ceil(u64::from(SIDE * SIDE));
     let row = |(k, ratio): (usize, &f64)| {
         let of = |(j, count): (usize, &usize)| {
             let mut tally = Tally::default();
