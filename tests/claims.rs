@@ -204,7 +204,9 @@ fn claims_say_what_they_rest_on() {
     // Each of the six still fails, and so is told.
     assert_eq!(cases, 6);
     // As a piece of a page it is well-formed, but for what must not stand alone, and nothing of it is left out.
-    let page = format!("<div>{}</div>", part(&claims).expect("types give no cause"));
+    let record = Record { size: [64, 36], sample: 5, claims: claims.clone(), ..stored() };
+    let page = format!("<div>{}</div>", part(&record).expect("types give no cause"));
+    assert!(page.contains("frames of 64 × 36 pixels; one block of 5 was traced"), "{page}");
     let page = page.replace("<br>", "<br/>");
     let page = Document::parse(&page).expect("well-formed");
     let rows = page.descendants().filter(|node| node.has_tag_name("tr")).count();

@@ -486,6 +486,7 @@ fn charts_maps_and_the_report_are_made() {
         met.out
     );
     assert!(!page.contains("<section id=\"proofs\"") && page.contains("shown as a known fault"));
+    assert!(page.contains("frames of 48 × 27 pixels"), "claims of other frames than were asked for");
     for name in ["chart.csv", "stability.json", "ablation.csv", "report.json"] {
         assert!(desk.path("all").join(name).is_file(), "{name}");
     }

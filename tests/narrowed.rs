@@ -3,7 +3,7 @@
 use contract::{Camera, DEFAULT_LIGHT, Image, Scene, Size, Sphere};
 use reference::{Arithmetic, Tracer};
 use verify::judge::compare::compare;
-use verify::judge::narrowed::{NarrowedError, SURPLUS, View, narrowed, sample};
+use verify::judge::narrowed::{LEAST, NarrowedError, SAMPLE, SURPLUS, View, narrowed, sample};
 use verify::scenes::catalogue::Source;
 use verify::scenes::frame::Framing;
 use verify::seed::seed;
@@ -21,8 +21,8 @@ fn full(scene: &Scene, camera: &Camera) -> Image {
 fn agree(what: &str, scene: &Scene, camera: &Camera) -> Image {
     let seed = seed();
     let found = narrowed(scene, camera, seed).unwrap_or_else(|error| panic!("{what}, seed {seed}: {error}"));
-    let least = camera.size().pixels().min(256);
-    assert!(found.sampled >= least, "{what}: only {} rays of a sample", found.sampled);
+    let due = (SAMPLE / scene.spheres().len()).min(camera.size().pixels());
+    assert_eq!(found.sampled, due, "{what}: rays of a sample");
     let truth = full(scene, camera);
     let c = compare(&truth, &found.image).expect("of the same size");
     assert_eq!([c.wrong_ids, c.wrong_t, c.wrong_color], [0; 3], "{what}: first {:?}", c.first_wrong);
@@ -172,12 +172,16 @@ fn planted_faults_are_found() {
     let (scene, camera) = made("uniform:5000:1", &size(64, 36));
     let truth = full(&scene, &camera);
     let seed = seed();
-    assert_eq!(sample(&scene, &camera, &truth, seed), Ok(64 * 36), "all of a small picture is sampled");
+    assert_eq!(
+        sample(&scene, &camera, &truth, SAMPLE, seed),
+        Ok(64 * 36),
+        "all of a small picture is sampled"
+    );
     let seen = truth.ids.iter().position(|&id| id != contract::MISS).expect("something is seen");
     let plant = |fault: fn(&mut Image, usize)| {
         let mut image = truth.clone();
         fault(&mut image, seen);
-        sample(&scene, &camera, &image, seed)
+        sample(&scene, &camera, &image, SAMPLE, seed)
     };
     for (what, found) in [
         ("a lost sphere", plant(|image, i| image.ids[i] = contract::MISS)),
@@ -194,16 +198,18 @@ fn planted_faults_are_found() {
 /// Of a large picture as many pixels are asked as was said, and they lie anywhere: a fault in all but the first row is met.
 #[test]
 fn a_sample_lies_anywhere() {
-    let (scene, camera) = made("uniform:40000:1", &size(400, 225));
-    let seed = seed();
-    let found = narrowed(&scene, &camera, seed).expect("it fits");
-    assert!((256..400 * 225).contains(&found.sampled), "{} rays: not a sample", found.sampled);
-    let mut image = found.image;
+    let (scene, camera) = made("uniform:1000:1", &size(400, 225));
+    let (seed, mut image) = (seed(), full(&scene, &camera));
+    let asked = |image: &Image, work| sample(&scene, &camera, image, work, seed);
+    assert_eq!(asked(&image, 4_096_000), Ok(4096), "rays times spheres are the work");
+    assert_eq!(asked(&image, 1), Ok(LEAST), "however little work");
     image.t[400..].iter_mut().for_each(|t| *t = t.next_down());
-    let Err(NarrowedError::Differs { x, y, .. }) = sample(&scene, &camera, &image, seed) else {
-        panic!("CGT_SEED={seed}: no pixel of the sample lies below the first row")
-    };
-    assert!(x < 400 && (1..225).contains(&y), "({x}, {y})");
+    for work in [4_096_000, 1] {
+        let Err(NarrowedError::Differs { x, y, .. }) = asked(&image, work) else {
+            panic!("CGT_SEED={seed}: no pixel of the sample lies below the first row")
+        };
+        assert!(x < 400 && (1..225).contains(&y), "({x}, {y})");
+    }
 }
 
 /// A sphere that is kept for every tile, and one of a higher id that touches it from within where the middle ray meets both at once.

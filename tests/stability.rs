@@ -65,7 +65,12 @@ fn all() -> &'static Stability {
     ALL.get_or_init(|| {
         let (seed, rays) = (seed(), count("CGT_STABILITY_RAYS", 16_384));
         eprintln!("CGT_SEED={seed}, {rays} rays at each value");
-        let methods = |cells| swept(cells, Level::best().expect("a level"), &mut Vec::new());
+        // One of the SPU's two forms: nothing is asked of the other here, and where an SPU is emulated it takes as long as all the rest.
+        let methods = |cells| {
+            let mut methods = swept(cells, Level::best().expect("a level"), &mut Vec::new());
+            methods.retain(|method| method.name != "safe-spu-perpendicular");
+            methods
+        };
         run(&methods, rays, seed, &[named("2juy")])
     })
 }
@@ -113,9 +118,12 @@ fn rounding_breaks_where_it_is_known_to() {
     let at = |method, radii| rate(found, "distance", method, radii);
     assert!((1e-3..0.1).contains(&at("naive-f32-textbook", 1000.0)), "{}", at("naive-f32-textbook", 1000.0));
     assert!(at("naive-f32-textbook", 1e4) > 0.2);
-    // By a third, where it begins; at 1,000 radii by too little for so few rays.
-    let early = |method| [177.8279, 316.2278, 562.3413].map(|radii| at(method, radii)).iter().sum::<f64>();
-    let (spu, textbook) = (early("safe-spu-textbook"), early("naive-f32-textbook"));
+    // What is cut off is off more often than what is rounded to nearest. Of t there are thousands; of wrong spheres, where these begin, too few.
+    let off = |method| {
+        let line = found.curve("distance").and_then(|curve| curve.line(method)).expect("measured");
+        [0, 2].map(|k| line.counts[k].wrong_t.expect("t was compared")).iter().sum::<u64>()
+    };
+    let (spu, textbook) = (off("safe-spu-textbook"), off("naive-f32-textbook"));
     assert!(spu > textbook, "SPU {spu}, f32 {textbook}, CGT_SEED={:?}", found.environment.seed);
     assert!(at("naive-f32-perpendicular", 1e4) < 1e-3 && at("naive-f32-perpendicular", 1e6) > 1e-3);
     assert!(at("naive-f64", 1e5) < 1e-3 && at("naive-f64", 1e8) > 1e-3, "f64 has its end too");

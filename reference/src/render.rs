@@ -122,8 +122,8 @@ impl Tracer {
             Arithmetic::Exact => exact::nearest(ray, spheres, undecided),
             Arithmetic::ExactUnfiltered => exact::nearest_unfiltered(ray, spheres),
             Arithmetic::F64 => double::nearest(ray, spheres),
-            Arithmetic::F32Textbook => single::nearest(ray, spheres, single::textbook),
-            Arithmetic::F32Perpendicular => single::nearest(ray, spheres, single::perpendicular),
+            Arithmetic::F32Textbook => single::nearest::<single::Textbook>(ray, spheres),
+            Arithmetic::F32Perpendicular => single::nearest::<single::Perpendicular>(ray, spheres),
             Arithmetic::SpuTextbook => spu_forms::nearest(ray, spheres, spu_forms::textbook),
             Arithmetic::SpuPerpendicular => spu_forms::nearest(ray, spheres, spu_forms::perpendicular),
         }

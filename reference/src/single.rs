@@ -4,54 +4,100 @@
 use crate::{Hit, Ray};
 use contract::Sphere;
 
+/// So many spheres are tried side by side: nearly every ray misses all of them, and needs no roots then.
+const TRIED: usize = 8;
+
+/// One of the two.
+pub(crate) trait Form {
+    /// Positive or zero where the ray's line meets the sphere, as far as this form knows.
+    fn discriminant(ray: &Ray, sphere: &Sphere) -> f32;
+
+    /// The smallest positive t at which the ray does, if there is one.
+    fn root(ray: &Ray, sphere: &Sphere) -> Option<f32>;
+}
+
 /// The nearest hit by either form; equal t go to the lowest id.
 #[inline]
-pub(crate) fn nearest(
-    ray: &Ray,
-    spheres: &[Sphere],
-    root: impl Fn(&Ray, &Sphere) -> Option<f32>,
-) -> Option<Hit> {
+pub(crate) fn nearest<F: Form>(ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
     let (mut best, mut hit) = (f32::INFINITY, None);
-    for (id, sphere) in (0..).zip(spheres) {
-        if let Some(t) = root(ray, sphere)
+    let mut meet = |id, sphere| {
+        if let Some(t) = F::root(ray, sphere)
             && (t < best || hit.is_none())
         {
             (best, hit) = (t, Some(id));
         }
+    };
+    let (eights, rest) = spheres.as_chunks::<TRIED>();
+    for (first, eight) in (0..).step_by(TRIED).zip(eights) {
+        if eight.iter().fold(false, |met, sphere| met | (F::discriminant(ray, sphere) >= 0.0)) {
+            (first..).zip(eight).for_each(|(id, sphere)| meet(id, sphere));
+        }
     }
+    (0..).zip(spheres).skip(spheres.len() - rest.len()).for_each(|(id, sphere)| meet(id, sphere));
     hit.map(|id| Hit { id, t: best })
 }
 
 /// b² − a q.
-#[inline]
-pub(crate) fn textbook(ray: &Ray, sphere: &Sphere) -> Option<f32> {
-    let (d, r) = (ray.dir, sphere.radius);
-    let f = [0, 1, 2].map(|i| ray.eye[i] - sphere.center[i]);
-    let a = dot(d, d);
-    let b = dot(f, d);
-    let q = dot(f, f) - r * r;
-    let discriminant = b * b - a * q;
-    if discriminant >= 0.0 {
-        let s = discriminant.sqrt();
-        return first_positive((-b - s) / a, (-b + s) / a);
+pub(crate) enum Textbook {}
+
+impl Form for Textbook {
+    #[inline]
+    fn discriminant(ray: &Ray, sphere: &Sphere) -> f32 {
+        let [a, b, q] = Self::parts(ray, sphere);
+        b * b - a * q
     }
-    None
+
+    #[inline]
+    fn root(ray: &Ray, sphere: &Sphere) -> Option<f32> {
+        let ([a, b, _], discriminant) = (Self::parts(ray, sphere), Self::discriminant(ray, sphere));
+        if discriminant >= 0.0 {
+            let s = discriminant.sqrt();
+            return first_positive((-b - s) / a, (-b + s) / a);
+        }
+        None
+    }
+}
+
+impl Textbook {
+    /// a, b and q.
+    #[inline]
+    fn parts(ray: &Ray, sphere: &Sphere) -> [f32; 3] {
+        let (d, r) = (ray.dir, sphere.radius);
+        let f = [0, 1, 2].map(|i| ray.eye[i] - sphere.center[i]);
+        [dot(d, d), dot(f, d), dot(f, f) - r * r]
+    }
 }
 
 /// r² − |f − (f·d / d·d) d|².
-#[inline]
-pub(crate) fn perpendicular(ray: &Ray, sphere: &Sphere) -> Option<f32> {
-    let (d, r) = (ray.dir, sphere.radius);
-    let w = 1.0 / dot(d, d);
-    let f = [0, 1, 2].map(|i| ray.eye[i] - sphere.center[i]);
-    let h = dot(f, d) * w;
-    let l = [0, 1, 2].map(|i| f[i] - h * d[i]);
-    let discriminant = r * r - dot(l, l);
-    if discriminant >= 0.0 {
-        let s = (discriminant * w).sqrt();
-        return first_positive(-h - s, -h + s);
+pub(crate) enum Perpendicular {}
+
+impl Form for Perpendicular {
+    #[inline]
+    fn discriminant(ray: &Ray, sphere: &Sphere) -> f32 {
+        let ([_, h, f @ ..], d, r) = (Self::parts(ray, sphere), ray.dir, sphere.radius);
+        let l = [0, 1, 2].map(|i| f[i] - h * d[i]);
+        r * r - dot(l, l)
     }
-    None
+
+    #[inline]
+    fn root(ray: &Ray, sphere: &Sphere) -> Option<f32> {
+        let ([w, h, ..], discriminant) = (Self::parts(ray, sphere), Self::discriminant(ray, sphere));
+        if discriminant >= 0.0 {
+            let s = (discriminant * w).sqrt();
+            return first_positive(-h - s, -h + s);
+        }
+        None
+    }
+}
+
+impl Perpendicular {
+    /// 1 / d·d, f·d / d·d, and f.
+    #[inline]
+    fn parts(ray: &Ray, sphere: &Sphere) -> [f32; 5] {
+        let w = 1.0 / dot(ray.dir, ray.dir);
+        let f = [0, 1, 2].map(|i| ray.eye[i] - sphere.center[i]);
+        [w, dot(f, ray.dir) * w, f[0], f[1], f[2]]
+    }
 }
 
 fn first_positive(near: f32, far: f32) -> Option<f32> {

@@ -29,7 +29,7 @@ while head := sys.stdin.buffer.read(20):
     camera, rays = read(12), read(6 * width * height)
     out.write(b"r"), out.flush(), sys.stdin.buffer.read(1)
     spheres = read(4 * n)
-    spheres = [spheres[i : i + 4] for i in range(0, 4 * n, 4)]
+    spheres = [tuple(spheres[i : i + 4]) for i in range(0, 4 * n, 4)]
     hits = [nearest(spheres, *rays[i : i + 6]) for i in range(0, len(rays), 6)]
     out.write(b"d" + array("I", [id for id, _ in hits]).tobytes() + array("f", [t for _, t in hits]).tobytes())
     out.flush()

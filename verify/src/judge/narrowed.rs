@@ -26,9 +26,10 @@ use thiserror::Error;
 const TILE: u32 = 8;
 /// A sphere that touches more tiles than this is kept for every one.
 const WIDE: usize = 256;
-/// Rays of the sample, times spheres: about how much the full loop is given to do; but so many rays at least.
-const SAMPLE: usize = 1 << 31;
-const LEAST: usize = 256;
+/// Rays of the sample, times spheres: about how much [`narrowed`] gives the full loop to do.
+pub const SAMPLE: usize = 1 << 31;
+/// Rays of any sample, if the picture has as many.
+pub const LEAST: usize = 256;
 
 /// Why there is no truth.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -67,17 +68,24 @@ pub struct Narrowed {
 /// [`NarrowedError`] if memory cannot be had or the sample differs.
 pub fn narrowed(scene: &Scene, camera: &Camera, seed: u64) -> Result<Narrowed, NarrowedError> {
     let image = picture(scene, camera, &Tiles::new(scene.spheres(), camera))?;
-    let sampled = sample(scene, camera, &image, seed)?;
+    let sampled = sample(scene, camera, &image, SAMPLE, seed)?;
     Ok(Narrowed { image, sampled })
 }
 
-/// Holds random pixels of a picture against the full loop and says how many there were: all, if that takes no longer.
+/// Holds random pixels of a picture against the full loop and says how many there were: rays times spheres are about `work`, but
+/// [`LEAST`] rays at least, and all pixels if that takes no longer.
 ///
 /// # Errors
 /// [`NarrowedError::Differs`] for one that differs.
-pub fn sample(scene: &Scene, camera: &Camera, image: &Image, seed: u64) -> Result<usize, NarrowedError> {
+pub fn sample(
+    scene: &Scene,
+    camera: &Camera,
+    image: &Image,
+    work: usize,
+    seed: u64,
+) -> Result<usize, NarrowedError> {
     let (size, exact) = (camera.size(), Tracer::new(Arithmetic::Exact));
-    let rays = (SAMPLE / scene.spheres().len().max(1)).max(LEAST);
+    let rays = (work / scene.spheres().len().max(1)).max(LEAST);
     let mut rng = crate::seed::generator(seed, 7);
     let pixels: Vec<usize> = if rays >= size.pixels() {
         (0..size.pixels()).collect()

@@ -1,11 +1,15 @@
-//! Claims as a piece of an HTML page in the report's style: how many have which standing, and the table.
+//! Claims as a piece of an HTML page in the report's style: of which frames, how many have which standing, and the table.
 
+use super::record::Record;
 use super::{PaperClaim, Standing};
 use askama::Template;
 
 #[derive(Template)]
 #[template(path = "paper-claims.html")]
 struct Part<'a> {
+    width: u32,
+    height: u32,
+    sample: u32,
     tally: Vec<(Standing, usize)>,
     claims: &'a [PaperClaim],
 }
@@ -14,7 +18,8 @@ struct Part<'a> {
 ///
 /// # Errors
 /// If the template fails, which its types give no cause for.
-pub fn part(claims: &[PaperClaim]) -> Result<String, askama::Error> {
-    let number = |standing| claims.iter().filter(|claim| claim.verdict == standing).count();
-    Part { tally: Standing::ALL.map(|standing| (standing, number(standing))).into(), claims }.render()
+pub fn part(record: &Record) -> Result<String, askama::Error> {
+    let tally = Standing::ALL.map(|standing| (standing, record.count(standing))).into();
+    let (Record { claims, sample, .. }, [width, height]) = (record, record.size);
+    Part { width, height, sample: *sample, tally, claims }.render()
 }

@@ -254,7 +254,8 @@ pub(crate) struct Report {
     /// Rounds of measuring, wherever time is measured
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = value_parser!(u16).range(1..=10_000))]
     pub(crate) rounds: u16,
-    /// Pixels of pictures and of what is timed; of a film 480x270 [default: 640x360, of charts 320x180]
+    /// Pixels of pictures, of what is timed and of what the paper claims; of a film 480x270 [default: 640x360, of charts 320x180, of claims
+    /// 1280x720]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(crate) size: Option<Size>,
     /// Threads that make pictures, at most 1024; 0 is one a core. What is timed has one

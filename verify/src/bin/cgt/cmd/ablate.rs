@@ -12,7 +12,6 @@ use verify::ablation::model::{Without, model, steps};
 use verify::ablation::{Ablation, SCHEMA_VERSION, ablate, page, text};
 use verify::chart::Distance;
 use verify::picture::check_folder;
-use verify::scenes::frame::Framing;
 use verify::seed::seed;
 use verify::spu::survey::Input;
 
@@ -39,9 +38,8 @@ pub(crate) fn found(args: &Args) -> Result<Ablation, Failure> {
         let (loaded, scene) = load(word, frame)?;
         warn(&loaded);
         let framing = framed(&args.view, &loaded, SIZE)?;
-        // The paper's claims are of its own size, whatever is timed here.
-        let own = Framing { size: None, ..args.view.framing() };
-        looked.push((word.clone(), scene.clone(), loaded.camera(&own)?));
+        // The paper's claims are of its own size, if none is asked for, whatever is timed here.
+        looked.push((word.clone(), scene.clone(), loaded.camera(&args.view.framing())?));
         let at = Distance::new(&loaded.animation, &framing, 1.0)?;
         let how = (level, threads, args.rounds.into(), args.sample);
         scenes.push(ablate((word, frame, &scene), &at, how, seed, &|what, steps| {

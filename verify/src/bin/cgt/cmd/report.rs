@@ -123,6 +123,8 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
     let folder = &args.out;
     // Times are those of one thread, which others on the machine disturb least.
     let view = &args::View { threads: 1, ..view.clone() };
+    // Where no size is asked for, some chapters have their own.
+    let asked = &args::View { size: args.size, ..view.clone() };
     files::folder(folder)?;
     let Chapters { mut parts, mut broken, mut absent } = Chapters::default();
     let wanted = |name: &str| !args.skip.iter().any(|skipped| skipped == name);
@@ -137,7 +139,7 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
             level: None,
             out: folder.clone(),
             own: args.own.clone(),
-            view: args::View { size: args.size, ..view.clone() },
+            view: asked.clone(),
         })?;
         files::data("chart", folder, &charted, Some(charted.csv()?))?;
         chapter("where methods break");
@@ -168,7 +170,7 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
             sample: 16,
             level: None,
             out: folder.clone(),
-            view: view.clone(),
+            view: asked.clone(),
         })?;
         files::data("ablation", folder, &ablated, Some(ablated.csv()?))?;
         broken.extend(ablated.broken_promises());
@@ -185,7 +187,7 @@ fn chapters(args: &args::Report, names: &[String], view: &args::View) -> Result<
         chapter("the paper's claims");
         let said =
             proved.as_ref().map_or_else(|| claims::said(&solvers, seed()), |proved| proved.lemmas.clone());
-        let (paper, machine) = paper(folder, names, &said, args.threads)?;
+        let (paper, machine) = paper(folder, names, &said, args.size, args.threads)?;
         parts.push(part("paper", "The paper's claims, one by one", paper));
         parts.push(part("spu", "The paper's machine", machine));
     }
@@ -222,10 +224,11 @@ fn paper(
     folder: &Path,
     names: &[String],
     said: &[Finding],
+    size: Option<Size>,
     threads: u16,
 ) -> Result<(String, String), Failure> {
-    // At the paper's own size, of whose blocks some stand for all.
-    let view = args::View { threads, ..args::View::default() };
+    // At the paper's own size, if none is asked for.
+    let view = args::View { size, threads, ..args::View::default() };
     let asked = args::Claims { scenes: names.to_vec(), sample: SAMPLE, json: None, markdown: None, view };
     let mut scenes = Vec::new();
     for word in names {
@@ -261,7 +264,7 @@ fn paper(
         host: None,
     };
     files::data("spu", folder, &machine, None)?;
-    Ok((paper_part(&found.claims)?, spu_part(&machine.surveys, &machine.curves, None)?))
+    Ok((paper_part(&found)?, spu_part(&machine.surveys, &machine.curves, None)?))
 }
 
 /// What is being done goes to standard error.
