@@ -498,6 +498,14 @@ fn charts_maps_and_the_report_are_made() {
         !views.is_empty() && views.iter().all(asked),
         "charts of another size than was asked for: {chart:#}"
     );
+    // A frame of so few pixels takes the model a hundredth of one of 1280x720, of which it makes less than 200 a second.
+    let data = std::fs::read(desk.path("all").join("ablation.json")).expect("there is data");
+    let ablation: Value = serde_json::from_slice(&data).expect("it is JSON");
+    let rate = &ablation["model"][0]["frames_per_second"][0][1][0];
+    assert!(
+        rate.as_f64().is_some_and(|rate| rate > 2000.0),
+        "a model of other frames than were asked for: {rate}"
+    );
     // A film on one page.
     let met =
         desk.run(&["verify", "2juy", "--frames", "3..5", "--plan", "fast", "--size", SMALL, "--out", "film"]);
