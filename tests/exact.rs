@@ -73,7 +73,7 @@ fn judge(kind: Kind, seed: u64, i: u64) -> Tally {
 #[test]
 fn threads_change_nothing() {
     let loaded = Source::parse("clump:300:9").and_then(|source| source.load()).expect("generated");
-    let size = Some(Size::new(67, 45).expect("small"));
+    let size = Some(Size::new(37, 25).expect("small"));
     let camera = Framing { size, ..Framing::default() }.camera(&loaded.animation).expect("in view");
     // Each sphere twice, so that orders are left undecided, and their number must not depend on threads either.
     let frame = &loaded.animation.frames()[0];

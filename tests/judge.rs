@@ -161,9 +161,9 @@ fn a_miss_at_a_distance_is_wrong() {
     let bench = Bench::new();
     let at = bench.pixel(false);
     for rounding in FORMS {
+        let mut image = bench.naive(rounding);
+        assert_eq!((image.ids[at], image.t[at]), (MISS, f32::INFINITY), "{rounding:?}");
         for t in [0.0, 1e30, f32::MAX, f32::NEG_INFINITY, f32::NAN] {
-            let mut image = bench.naive(rounding);
-            assert_eq!((image.ids[at], image.t[at]), (MISS, f32::INFINITY), "{rounding:?}");
             image.t[at] = t;
             let judgement = bench.judge(&image, Promise::Rounded(rounding), None);
             assert_eq!(judgement.verdict, Verdict::Wrong, "{rounding:?}, t {t}: {judgement:?}");

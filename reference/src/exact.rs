@@ -12,10 +12,12 @@
 //!    settle, roots whose intervals overlap, and roots whose interval holds a rounding boundary of f32 go to
 //!    integers, and are counted.
 
+use crate::eights::each;
 use crate::interval::Interval;
 use crate::root::Root;
 use crate::{Hit, Ray, Undecided};
 use contract::Sphere;
+use multiversion::multiversion;
 use std::cmp::Ordering;
 
 /// 32 units of f64 rounding: see the module's text.
@@ -34,13 +36,11 @@ pub(crate) fn nearest_unfiltered(ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
 }
 
 /// The nearest hit, the same decisions with the filters in front.
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn nearest(ray: &Ray, spheres: &[Sphere], undecided: &mut Undecided) -> Option<Hit> {
     let mut best: Option<(u32, Interval)> = None;
-    for (id, sphere) in (0..).zip(spheres) {
-        if certain_miss(ray, sphere) {
-            continue;
-        }
-        let Some(t) = root_interval(ray, sphere, undecided) else { continue };
+    let meet = |id, sphere: &Sphere| {
+        let Some(t) = root_interval(ray, sphere, undecided) else { return };
         let nearer = match best {
             None => true,
             Some((_, nearest)) if t.hi < nearest.lo => true,
@@ -53,7 +53,8 @@ pub(crate) fn nearest(ray: &Ray, spheres: &[Sphere], undecided: &mut Undecided) 
         if nearer {
             best = Some((id, t));
         }
-    }
+    };
+    each(spheres, |sphere| !certain_miss(ray, sphere), meet);
     best.map(|(id, t)| Hit { id, t: rounded(ray, &spheres[id as usize], t, undecided) })
 }
 

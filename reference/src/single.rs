@@ -1,11 +1,10 @@
 //! The two f32 forms (contract, rule 5): textbook and perpendicular. The order of operations is the contract's
 //! to the letter, since others are compared with it bit for bit.
 
+use crate::eights::each;
 use crate::{Hit, Ray};
 use contract::Sphere;
-
-/// So many spheres are tried side by side: nearly every ray misses all of them, and needs no roots then.
-const TRIED: usize = 8;
+use multiversion::multiversion;
 
 /// One of the two.
 pub(crate) trait Form {
@@ -17,23 +16,17 @@ pub(crate) trait Form {
 }
 
 /// The nearest hit by either form; equal t go to the lowest id.
-#[inline]
+#[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn nearest<F: Form>(ray: &Ray, spheres: &[Sphere]) -> Option<Hit> {
     let (mut best, mut hit) = (f32::INFINITY, None);
-    let mut meet = |id, sphere| {
+    let meet = |id, sphere: &Sphere| {
         if let Some(t) = F::root(ray, sphere)
             && (t < best || hit.is_none())
         {
             (best, hit) = (t, Some(id));
         }
     };
-    let (eights, rest) = spheres.as_chunks::<TRIED>();
-    for (first, eight) in (0..).step_by(TRIED).zip(eights) {
-        if eight.iter().fold(false, |met, sphere| met | (F::discriminant(ray, sphere) >= 0.0)) {
-            (first..).zip(eight).for_each(|(id, sphere)| meet(id, sphere));
-        }
-    }
-    (0..).zip(spheres).skip(spheres.len() - rest.len()).for_each(|(id, sphere)| meet(id, sphere));
+    each(spheres, |sphere| F::discriminant(ray, sphere) >= 0.0, meet);
     hit.map(|id| Hit { id, t: best })
 }
 
