@@ -474,7 +474,7 @@ fn ids_of_no_sphere_and_t_that_is_no_number_are_wrong() {
 }
 
 #[test]
-fn every_command_of_the_page_runs() {
+fn all_commands_of_the_page_run() {
     if !has("python3") {
         return;
     }

@@ -57,7 +57,7 @@ fn lemmas_are_proved() {
     assert!(10 * needed >= 9 * left_out, "{needed} of {left_out} assumptions");
     // One solver alone may know some kinds of numbers only, and is not asked about others.
     if solvers.len() > 1 {
-        assert!(tried >= 6 * proofs.faults.len() - 5, "only {tried} faults were tried");
+        assert!(tried >= Effort::EVERYDAY.faults * proofs.faults.len() - 5, "only {tried} faults were tried");
         assert!(left_out >= 50, "only {left_out} assumptions were left out");
     } else if !solvers.is_empty() {
         eprintln!("not judged: whether enough was tried: it takes two solvers");

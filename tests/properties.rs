@@ -184,7 +184,7 @@ fn what_breaks_in_a_later_frame_is_a_failure() {
 }
 
 #[test]
-fn what_integers_know_is_what_every_tracer_says() {
+fn integers_know_what_every_tracer_says() {
     let least = [
         ("rays whose answer is known", 40_000),
         ("known hits", 1_000),
