@@ -4,7 +4,7 @@
 use contract::{Camera, DEFAULT_LIGHT, MISS, Scene, Size, Sphere};
 use rand::RngExt;
 use rayon::prelude::*;
-use reference::{Arithmetic, Ray, Tracer, Undecided};
+use reference::{Arithmetic, Hit, Ray, Tracer, Undecided};
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU32, Ordering};
 use verify::directed::{KINDS, Kind, aimed, case};
@@ -59,7 +59,7 @@ fn judge(kind: Kind, seed: u64, i: u64) -> Tally {
     let mut undecided = Undecided::default();
     let filtered = Tracer::new(Arithmetic::Exact).trace_counting(&case.ray, &scene, &mut undecided);
     let unfiltered = Tracer::new(Arithmetic::ExactUnfiltered).trace(&case.ray, &scene);
-    let bits = |hit: Option<reference::Hit>| hit.map(|hit| (hit.id, hit.t.to_bits()));
+    let bits = |hit: Option<Hit>| hit.map(|hit| (hit.id, hit.t.to_bits()));
     let replay = format!("case {i} of CGT_SEED={seed}: {case:?}");
     assert_eq!(bits(filtered), bits(unfiltered), "filtered, unfiltered; {replay}");
     if let Some(known) = case.known {
@@ -67,6 +67,59 @@ fn judge(kind: Kind, seed: u64, i: u64) -> Tally {
         assert_eq!(bits(unfiltered), known, "unfiltered, known; {replay}");
     }
     Tally { cases: 1, hits: u64::from(filtered.is_some()), known: u64::from(case.known.is_some()), undecided }
+}
+
+/// Among so many spheres that most are tried eight at once, a ray finds what it finds of each alone: the nearest, and of equal ones the first.
+#[test]
+fn eight_at_once_are_each_tried() {
+    let (seed, mut in_eights, mut after, mut ties) = (seed(), 0, 0, 0);
+    for arithmetic in [
+        Arithmetic::Exact,
+        Arithmetic::F64,
+        Arithmetic::F32Textbook,
+        Arithmetic::F32Perpendicular,
+        Arithmetic::SpuTextbook,
+        Arithmetic::SpuPerpendicular,
+    ] {
+        let find = |ray: &Ray, spheres: Vec<Sphere>| {
+            let scene = Scene::new(spheres, [0; 3], DEFAULT_LIGHT).expect("valid");
+            Tracer::new(arithmetic).trace(ray, &scene)
+        };
+        for i in 0..3_000 {
+            let mut rng = generator(seed, i);
+            let mut whole = |range: std::ops::RangeInclusive<i8>| f32::from(rng.random_range(range));
+            let ray =
+                Ray { eye: [whole(-3..=3), whole(-3..=3), -30.0], dir: [whole(-2..=2), whole(-2..=2), 8.0] };
+            let n = whole(0..=40) as usize;
+            let spheres = (0..n).map(|_| Sphere {
+                center: [0; 3].map(|_| whole(-9..=9)),
+                radius: whole(1..=3),
+                color: [9; 3],
+            });
+            let mut spheres: Vec<Sphere> = spheres.collect();
+            // Every fourth is another once more.
+            (3..n).step_by(4).for_each(|i| spheres[i] = spheres[rng.random_range(0..i)]);
+            let alone = |(id, sphere): (u32, &Sphere)| find(&ray, vec![*sphere]).map(|hit| Hit { id, ..hit });
+            let alone: Vec<Hit> = (0..).zip(&spheres).filter_map(alone).collect();
+            let nearest = alone.iter().copied().reduce(|a, b| if b.t < a.t { b } else { a });
+            let found = find(&ray, spheres.clone());
+            let replay = format!("{arithmetic:?}, case {i} of CGT_SEED={seed}: {ray:?}, {spheres:?}");
+            assert_eq!(found.map(|hit| hit.t.to_bits()), nearest.map(|hit| hit.t.to_bits()), "{replay}");
+            let (Some(found), Some(nearest)) = (found, nearest) else { continue };
+            let equal: Vec<u32> = alone.iter().filter(|hit| hit.t == nearest.t).map(|hit| hit.id).collect();
+            match arithmetic {
+                // Two roots may be one number only when they are rounded at the end.
+                Arithmetic::Exact | Arithmetic::F64 => {
+                    assert!(equal.contains(&found.id), "{found:?}, {replay}")
+                }
+                _ => assert_eq!(found.id, nearest.id, "{replay}"),
+            }
+            *if (found.id as usize) < n / 8 * 8 { &mut in_eights } else { &mut after } += 1;
+            ties += u64::from(equal.len() > 1);
+        }
+    }
+    eprintln!("CGT_SEED={seed}: {in_eights} hits among eights, {after} after them, {ties} ties");
+    assert!(in_eights > 2_000 && after > 500 && ties > 100, "{in_eights}, {after}, {ties}");
 }
 
 /// The picture does not depend on how many threads there are.

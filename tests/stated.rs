@@ -1244,6 +1244,16 @@ fn reasons_are_said_with_their_numbers() {
 #[test]
 fn ten_thousand_events_are_kept() {
     assert_eq!(Events::KEPT, 10_000);
+    let mut events = Events::default();
+    for id in 0..10_007 {
+        events.push(Event::SpansCells { sphere: id, axis: 1, cells: 3 });
+    }
+    assert_eq!((events.count(), events.first().len()), (10_007, 10_000));
+    assert!(
+        (0..)
+            .zip(events.first())
+            .all(|(id, event)| matches!(event, Event::SpansCells { sphere, .. } if *sphere == id))
+    );
 }
 
 /// Plans that promise the naive picture, and words in which no two plans are alike.
